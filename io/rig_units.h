@@ -1,0 +1,25 @@
+// The unit and the up axis of a motion file. Inner part of io/recognise.h.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/recognise.h"
+#include "model/rig.h"
+
+namespace retarget {
+
+// Fills unit, its name and stature of `facts`, whose figure is `height` file units tall: the unit
+// of the options, else the listed one that makes the stature the most usual. Notes what is odd;
+// throws InputError, one line that begins with `file`, where no unit makes a human.
+void FindUnit(double height, const RecogniseOptions& options, const std::string& file,
+              RigFacts* facts);
+
+// Fills the up axis: of the options, else the one of y and z along which the figure stands.
+// `facts` has the map. Notes what is odd; throws InputError on options that are no axis.
+void FindUp(const std::vector<PosedRig>& poses, const RecogniseOptions& options,
+            const std::string& file, RigFacts* facts);
+
+Vec3 UpAxis(const RigFacts& facts);
+
+}  // namespace retarget

@@ -1,0 +1,103 @@
+// Playback; scene_motion_read.cc reads.
+#include "io/scene_motion.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace retarget {
+namespace {
+
+// The rotation of a linear map: of its polar decomposition, unless it is one already.
+Quat NearestRotation(const Mat3& linear) {
+  const bool is_rotation = linear.isUnitary(1e-9) && linear.determinant() > 0;
+  return Quat(is_rotation ? linear : Mat3(Eigen::Affine3d(linear).rotation())).normalized();
+}
+
+}  // namespace
+
+std::vector<int> SceneMotion::FindNodes(const std::string& figure,
+                                        const std::vector<std::string>& node_names) const {
+  std::vector<int> nodes;
+  for (const std::string& node_name : node_names) {
+    const auto found = node_of_name_.find(figure + "/" + node_name);
+    if (found == node_of_name_.end()) {
+      throw InputError(fmt::format("{}: no node \"{}/{}\"", name_, figure, node_name));
+    }
+    nodes.push_back(found->second);
+  }
+  return nodes;
+}
+
+SceneMotion::Instant SceneMotion::At(double t) const {
+  const auto after = std::upper_bound(key_times.begin(), key_times.end(), t);
+  if (after == key_times.begin()) return {0, 0.0};
+  const size_t key = static_cast<size_t>(after - key_times.begin()) - 1;
+  if (after == key_times.end()) return {key, 0.0};
+  return {key, (t - key_times[key]) / (*after - key_times[key])};
+}
+
+Vec3 SceneMotion::TranslationAt(const Node& node, const Instant& instant) const {
+  if (node.translation_track < 0) return node.translation;
+  const std::vector<Vec3>& track = translation_tracks_[node.translation_track];
+  if (instant.share == 0.0) return track[instant.key];
+  return (1.0 - instant.share) * track[instant.key] + instant.share * track[instant.key + 1];
+}
+
+Quat SceneMotion::RotationAt(const Node& node, const Instant& instant) const {
+  if (node.rotation_track < 0) return node.rotation;
+  const std::vector<Quat>& track = rotation_tracks_[node.rotation_track];
+  if (instant.share == 0.0) return track[instant.key];
+  return track[instant.key].slerp(instant.share, track[instant.key + 1]);  // the shorter arc
+}
+
+std::vector<SceneMotion::Placed> SceneMotion::Place(double t, const std::vector<int>& nodes) const {
+  // Work out only the nodes asked for and what they hang from; parents stand before children.
+  std::vector<char> needed(nodes_.size(), 0);
+  for (const int n : nodes) needed[n] = 1;
+  for (size_t n = nodes_.size(); n-- > 0;) {
+    if (needed[n] && nodes_[n].parent >= 0) needed[nodes_[n].parent] = 1;
+  }
+  const Instant instant = At(t);
+  std::vector<Placed> placed(nodes_.size());
+  for (size_t n = 0; n < nodes_.size(); ++n) {
+    if (!needed[n]) continue;
+    const Node& node = nodes_[n];
+    Placed& own = placed[n];
+    own.linear.noalias() = RotationAt(node, instant).toRotationMatrix() * node.stretch;
+    own.origin = TranslationAt(node, instant);
+    if (node.parent < 0) continue;
+    const Placed& parent = placed[node.parent];
+    own.origin = parent.origin + parent.linear * own.origin;
+    own.linear = parent.linear * own.linear;
+  }
+  return placed;
+}
+
+void SceneMotion::NodePositions(double t, const std::vector<int>& nodes,
+                                std::vector<Vec3>* out) const {
+  const std::vector<Placed> placed = Place(t, nodes);
+  out->clear();
+  for (const int n : nodes) out->push_back(placed[n].origin);
+}
+
+void SceneMotion::NodeFrames(double t, const std::vector<int>& nodes, std::vector<Vec3>* position,
+                             std::vector<Quat>* carrier_rotation) const {
+  const std::vector<Placed> placed = Place(t, nodes);
+  position->clear();
+  carrier_rotation->clear();
+  for (const int n : nodes) {
+    const int carrier = nodes_[n].parent < 0 ? n : nodes_[n].parent;
+    position->push_back(placed[n].origin);
+    carrier_rotation->push_back(NearestRotation(placed[carrier].linear));
+  }
+}
+
+void SceneMotion::NodePositions(double t, const std::string& figure,
+                                const std::vector<std::string>& node_names,
+                                std::vector<Vec3>* out) const {
+  NodePositions(t, FindNodes(figure, node_names), out);
+}
+
+}  // namespace retarget

@@ -1,0 +1,151 @@
+#include "io/settings_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "io/nearest_name.h"
+#include "io/yaml_reader.h"
+
+namespace retarget {
+namespace {
+
+// A key of the table is "group.name".
+std::string GroupOf(const std::string& key) { return key.substr(0, key.find('.')); }
+std::string NameOf(const std::string& key) { return key.substr(key.find('.') + 1); }
+
+std::vector<std::string> AllKeys() {
+  std::vector<std::string> keys;
+  const Settings defaults;
+  VisitSettings(defaults, [&](const char* key, auto&&...) { keys.push_back(key); });
+  return keys;
+}
+
+std::vector<std::string> Groups() {
+  std::vector<std::string> groups;
+  for (const std::string& key : AllKeys()) {
+    if (groups.empty() || groups.back() != GroupOf(key)) groups.push_back(GroupOf(key));
+  }
+  return groups;
+}
+
+std::vector<std::string> NamesIn(const std::string& group) {
+  std::vector<std::string> names;
+  for (const std::string& key : AllKeys()) {
+    if (GroupOf(key) == group) names.push_back(NameOf(key));
+  }
+  return names;
+}
+
+// "a|b" -> {"a", "b"}; nothing for an empty list, which allows any text.
+std::vector<std::string> Alternatives(std::string_view list) {
+  std::vector<std::string> names;
+  while (!list.empty()) {
+    const size_t bar = std::min(list.find('|'), list.size());
+    names.emplace_back(list.substr(0, bar));
+    list.remove_prefix(std::min(bar + 1, list.size()));
+  }
+  return names;
+}
+
+// One overload per type of setting, so that VisitSettings finds its way.
+void ReadInto(double* out, const YamlValue& value, const char* unit, double least, double most) {
+  *out = ReadNumber(value, least, most, unit);
+}
+void ReadInto(int* out, const YamlValue& value, const char*, double least, double most) {
+  *out = ReadInteger(value, static_cast<int>(least), static_cast<int>(most));
+}
+void ReadInto(std::string* out, const YamlValue& value, const char*, const char* allowed, double) {
+  const std::vector<std::string> names = Alternatives(allowed);
+  *out = names.empty() ? ReadText(value) : names[ReadName(value, "value", names)];
+}
+
+// Sets the setting that `value.path` names; it must exist.
+void Assign(Settings* settings, const YamlValue& value) {
+  VisitSettings(*settings, [&](const char* key, auto& setting, const char* unit, const char*,
+                               auto least, auto most) {
+    if (value.path == key) ReadInto(&setting, value, unit, least, most);
+  });
+}
+
+std::string Printed(const std::string& text) { return YamlText(text); }
+std::string Printed(double number) { return fmt::format("{}", number); }
+std::string Printed(int number) { return fmt::format("{}", number); }
+
+// What a string may be, for its comment.
+std::string AllowedText(const char* allowed) {
+  return *allowed ? fmt::format(" ({})", allowed) : "";
+}
+std::string AllowedText(double) { return ""; }
+
+std::vector<std::string> PrintedDefaults() {
+  std::vector<std::string> printed;
+  const Settings defaults;
+  VisitSettings(defaults, [&](const char*, const auto& setting, auto&&...) {
+    printed.push_back(fmt::format("{}", setting));
+  });
+  return printed;
+}
+
+std::string Trimmed(const std::string& text) {
+  const size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+}
+
+}  // namespace
+
+Settings ReadSettings(const std::string& path) {
+  return ParseSettings(ReadTextFile(path, "a settings file"), path);
+}
+
+Settings ParseSettings(const std::string& text, const std::string& name) {
+  Settings settings;
+  const YamlValue root = ParseYaml(text, name);
+  if (root.kind == YamlValue::Kind::kNothing) return settings;
+  CheckKeys(root, Groups());
+  for (const YamlValue& group : root.children) {
+    if (group.kind == YamlValue::Kind::kNothing) continue;  // every key of it is commented out
+    CheckKeys(group, NamesIn(group.key));
+    for (const YamlValue& value : group.children) Assign(&settings, value);
+  }
+  return settings;
+}
+
+void SetByName(Settings* settings, const std::string& assignment) {
+  const size_t equals = assignment.find('=');
+  YamlValue value;
+  value.kind = YamlValue::Kind::kScalar;
+  value.place = "--set";
+  value.text = assignment;
+  if (equals == std::string::npos) RefuseExpecting(value, "key=value");
+  value.path = Trimmed(assignment.substr(0, equals));
+  value.text = Trimmed(assignment.substr(equals + 1));
+
+  YamlValue key = value;
+  key.path.clear();
+  key.text = value.path;
+  ReadName(key, "key", AllKeys());
+  Assign(settings, value);
+}
+
+std::string FormatSettings(const Settings& settings) {
+  const std::vector<std::string> defaults = PrintedDefaults();
+  std::string out, group;
+  size_t index = 0;
+  VisitSettings(settings, [&](const std::string& key, const auto& setting, const std::string& unit,
+                              const char* meaning, auto least, auto) {
+    if (GroupOf(key) != group) {
+      out += (out.empty() ? "" : "\n") + GroupOf(key) + ":\n";
+      group = GroupOf(key);
+    }
+    out += fmt::format("  {}: {}  # default {}{}: {}{}\n", NameOf(key), Printed(setting),
+                       defaults[index++], unit.empty() ? "" : ", " + unit, meaning,
+                       AllowedText(least));
+  });
+  return out;
+}
+
+}  // namespace retarget

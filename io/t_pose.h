@@ -1,0 +1,20 @@
+// Calibration poses at the start of a clip. Inner part of io/recognise.h.
+#pragma once
+
+#include <vector>
+
+#include "model/rig.h"
+
+namespace retarget {
+
+// Frames from the first one on. A clip that is nothing but a T-pose has no calibration to skip,
+// unless it is a single frame, which the caller will want to know. Resampling tools blend the
+// T-pose into the motion: a rough one counts if the figure leaves it in a leap.
+// `facts` has map and up axis.
+std::vector<int> TPoseFrames(const RigMotion& motion, const RigFacts& facts);
+
+// Says where the motion begins: after the T-pose and the few hasty frames that a resampling tool
+// made to lead away from it. `facts` has the frames of the T-pose.
+void NoteTPose(const RigMotion& motion, RigFacts* facts);
+
+}  // namespace retarget

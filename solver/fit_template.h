@@ -1,0 +1,28 @@
+// The template posture on two given bodies, and the tangles that are to be kept.
+#pragma once
+
+#include <vector>
+
+#include "model/settings.h"
+#include "model/template_posture.h"
+#include "solver/scene.h"
+
+namespace retarget {
+
+// The literal tangles of a template and its tags: the user's own list, else the reduction.
+struct TemplateTangles {
+  std::vector<Tangle> literal;
+  std::vector<Tag> tags;
+};
+TemplateTangles FindTemplateTangles(const TemplatePosture& posture, const TangleSettings& settings);
+
+// Fits a template to other bodies: joint rotations are kept, then a one-frame solve with the terms
+// of the spacetime problem restores holds, tangles and non-penetration (DESIGN 5).
+TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Body, 2>& body,
+                            const std::vector<Tag>& tags, const Settings& settings);
+
+// What the tags aim for: half a turn and the margin, never above the posture's own value.
+std::vector<HeldTangle> HoldTangles(const std::vector<Tag>& tags, const TemplatePosture& posture,
+                                    double margin);
+
+}  // namespace retarget

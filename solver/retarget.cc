@@ -1,0 +1,74 @@
+#include "solver/retarget.h"
+
+#include <cstdio>
+
+#include "solver/start.h"
+
+namespace retarget {
+namespace {
+
+std::string Describe(const Scene& scene, const Tangle& t) {
+  const auto name = [&](int figure, int node) { return scene.body[figure].nodes[node].name; };
+  return "a (" + name(0, t.a.from) + ", " + name(0, t.a.to) + ") x b (" + name(1, t.b.from) + ", " +
+         name(1, t.b.to) + ")";
+}
+
+std::string WithNumber(const std::string& text, double value) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%.2f", value);
+  return text + number;
+}
+
+void WarnOfWeakTags(RetargetResult* result) {
+  for (const HeldTangle& held : result->scene.tangles) {
+    const std::string who = Describe(result->scene, held.tag.tangle);
+    const double gli = std::abs(held.tag.tangle.gli);
+    if (gli < 0.6) {
+      result->warnings.push_back(WithNumber("tag " + who + " is weak in the template: |GLI| ", gli));
+    } else if (held.tag.rho < 0.1) {
+      result->warnings.push_back(
+          WithNumber("tag " + who + " is easily lost: robustness radius ", held.tag.rho));
+    }
+  }
+  if (result->scene.tangles.empty()) {
+    result->warnings.push_back("the template has no tangles: only holds and contacts tie the figures");
+  }
+}
+
+}  // namespace
+
+RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
+  RetargetResult result;
+  result.tangles = FindTemplateTangles(input.posture, settings.tangle);
+  Scene& scene = result.scene;
+  scene.body = input.body;
+  scene.template_frame = input.template_frame;
+  scene.posture = FitTemplate(input.posture, input.body, result.tangles.tags, settings);
+  scene.tangles = HoldTangles(result.tangles.tags, scene.posture, settings.tangle.margin);
+  scene.holds = scene.posture.holds;
+  scene.root = scene.posture.root;
+  for (int f = 0; f < 2; ++f) {
+    scene.contacts[f] = DetectContacts(input.body[f], input.clip[f], scene.posture.supports[f],
+                                       settings.contact);
+    result.placement[f] = PlaceAt(input.body[f], input.clip[f], input.template_frame,
+                                  scene.posture.pose[f], scene.contacts[f]);
+    scene.source[f] = Placed(input.clip[f], result.placement[f]);
+  }
+  WarnOfWeakTags(&result);
+  return result;
+}
+
+RetargetResult Retarget(const RetargetInput& input, const Settings& settings,
+                        const Progress& progress) {
+  RetargetResult result = Prepare(input, settings);
+  const Problem problem(result.scene, settings);
+  const double started = SecondsNow();
+  const Unknowns start = StartOf(problem);
+  result.start_seconds = SecondsNow() - started;
+  result.solve = SolveSpacetime(problem, start, progress);
+  result.solved = EditedClips(result.scene, result.solve.unknowns);
+  result.costs = problem.CostByTerm(result.solve.unknowns);
+  return result;
+}
+
+}  // namespace retarget

@@ -1,0 +1,41 @@
+// The whole way from two clips and a template to a solved scene.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "model/settings.h"
+#include "solver/fit_template.h"
+#include "solver/placement.h"
+#include "solver/spacetime.h"
+
+namespace retarget {
+
+struct RetargetInput {
+  std::array<Body, 2> body;
+  std::array<Clip, 2> clip;     // as captured (m, Y up), one rate and one number of frames
+  TemplatePosture posture;
+  int template_frame = 0;       // laid into the template
+};
+
+struct RetargetResult {
+  TemplateTangles tangles;
+  Scene scene;
+  std::array<Placement, 2> placement;
+  double start_seconds = 0;    // spent on the initial guess
+  SolveResult solve;
+  std::array<Clip, 2> solved;
+  std::vector<TermCost> costs;
+  std::vector<std::string> warnings;
+};
+
+// Fits the template, finds the tangles, places the clips, detects the contacts, chooses a start and
+// solves. Files are not its business.
+RetargetResult Retarget(const RetargetInput& input, const Settings& settings,
+                        const Progress& progress);
+
+// All but the solve: what the problem would be.
+RetargetResult Prepare(const RetargetInput& input, const Settings& settings);
+
+}  // namespace retarget

@@ -1,0 +1,95 @@
+#include "solver/spacetime.h"
+
+#include <chrono>
+#include <sstream>
+
+#include "model/capsule.h"
+#include "model/path.h"
+#include "solver/parallel.h"
+
+namespace retarget {
+
+double SecondsNow() {
+  using Clock = std::chrono::steady_clock;
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+std::vector<double> ParseStages(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<double> stages;
+  double factor;
+  while (in >> factor) stages.push_back(factor);
+  if (!in.eof() || stages.empty() || stages.back() != 1) {
+    throw InputError("solve.stages: \"" + text + "\" is not a list of factors that ends with 1");
+  }
+  return stages;
+}
+
+void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int threads,
+                      Iteration* iteration) {
+  const Scene& scene = problem.scene();
+  const size_t n = static_cast<size_t>(scene.num_frames());
+  std::vector<double> gli(n, 1e9), depth(n, 0), hold(n, 0);
+  std::vector<Frame> frames(static_cast<size_t>(threads));
+  std::vector<std::array<std::vector<int>, 2>> paths;
+  for (const HeldTangle& held : scene.tangles) {
+    paths.push_back({NodesOn(scene.body[0], held.tag.tangle.a),
+                     NodesOn(scene.body[1], held.tag.tangle.b)});
+  }
+  std::vector<Rows> rows(static_cast<size_t>(threads));
+  const Term* penetration = nullptr;
+  for (const auto& term : problem.terms()) {
+    if (std::string(term->name()) == "penetration") penetration = term.get();
+  }
+  ParallelFor(scene.num_frames(), threads, [&](int t, int thread) {
+    Frame& frame = frames[thread];
+    frame.Set(scene, unknowns, t, false);
+    for (size_t k = 0; k < paths.size(); ++k) {
+      std::array<std::vector<Vec3>, 2> points;
+      for (int f = 0; f < 2; ++f) {
+        for (const int node : paths[k][f]) points[f].push_back(frame.posed[f].node[node]);
+      }
+      gli[t] = std::min(gli[t], scene.tangles[k].sign * PolylineGli(points[0], points[1]));
+    }
+    rows[thread].Reset(frame, false);
+    penetration->Evaluate(frame, &rows[thread]);
+    for (const double r : rows[thread].residual()) depth[t] = std::max(depth[t], r);
+    for (const Hold& h : scene.holds) {
+      hold[t] = std::max(hold[t], (HoldPosition(h.from, scene.body, frame.posed) -
+                                   HoldPosition(h.to, scene.body, frame.posed)).norm());
+    }
+  });
+  iteration->smallest_gli = *std::min_element(gli.begin(), gli.end());
+  iteration->deepest_penetration_m = *std::max_element(depth.begin(), depth.end());
+  iteration->hold_error_m = *std::max_element(hold.begin(), hold.end());
+}
+
+SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const Progress& progress) {
+  const SolveSettings& settings = problem.settings().solve;
+  const bool banded = settings.backend == "banded";
+  const std::vector<double> stages = ParseStages(settings.stages);
+  SolveResult result;
+  result.unknowns = start;
+  result.backend = settings.backend;
+  const double started = SecondsNow();
+  const int threads = NumThreads(settings.threads);
+  result.initial_cost = problem.Cost(start, 1, threads);
+  for (size_t s = 0; s < stages.size(); ++s) {
+    const bool last = s + 1 == stages.size();
+    StageContext context{&problem,
+                         stages[s],
+                         last ? settings.polish_decrease : settings.relative_decrease,
+                         settings.max_iterations - result.iterations,
+                         settings.max_seconds,
+                         static_cast<int>(s),
+                         started,
+                         &progress};
+    result.status = banded ? SolveStageBanded(context, &result) : SolveStageCeres(context, &result);
+    if (result.status != SolveStatus::kConverged) break;
+  }
+  result.cost = problem.Cost(result.unknowns, 1, threads);
+  result.seconds = SecondsNow() - started;
+  return result;
+}
+
+}  // namespace retarget

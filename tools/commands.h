@@ -1,0 +1,46 @@
+// The commands of the program: each reads, does, prints, and returns the exit code of the contract
+// (0 done, 3 a requirement is missed, 4 a limit was hit, 130 interrupted). Bad input is thrown as
+// InputError (exit code 2).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/load_clip.h"
+
+namespace retarget {
+
+enum ExitCode { kDone = 0, kInternal = 1, kBadInput = 2, kMissed = 3, kLimit = 4, kInterrupted = 130 };
+
+struct RetargetOptions {
+  std::array<ClipOptions, 2> clip;
+  std::string template_path, config_path, out = "out", frames;
+  std::vector<std::string> set;
+  double fps = 30, template_at = 0;
+  int threads = -1;  // -1: as configured
+  bool json = false, force = false;
+};
+int RunRetarget(const RetargetOptions& options);
+
+int RunVerify(const std::string& folder, bool json);
+int RunTangles(const std::string& path, bool json);
+int RunMap(const ClipOptions& clip, bool json);
+int RunConfig(const std::string& config_path, const std::vector<std::string>& set);
+int RunTemplateCheck(const std::string& path, bool json);
+
+struct FromClipsOptions {
+  std::array<ClipOptions, 2> clip;
+  int frame = 0;  // of both clips, from 0
+  std::string out, name;
+  bool force = false;
+};
+int RunTemplateFromClips(const FromClipsOptions& options);
+int RunRender(const std::string& folder, const std::string& out, bool force);
+
+// What a run does when the user presses Ctrl-C: finish the iteration, write the best so far.
+bool Interrupted();
+void CatchInterrupts();
+
+}  // namespace retarget

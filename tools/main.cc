@@ -1,0 +1,166 @@
+// The command line: options in, exit code out.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "io/settings_file.h"
+#include "io/recognise.h"
+#include "tools/commands.h"
+#include "tools/version.h"
+
+namespace retarget {
+
+int RunMap(const ClipOptions& options, bool json) {
+  const LoadedClip clip = RecogniseClip(options);
+  fmt::print("{}", json ? MapJson(clip.facts, clip.file.motion) : MapTable(clip.facts, clip.file.motion));
+  return kDone;
+}
+
+int RunConfig(const std::string& config_path, const std::vector<std::string>& set) {
+  Settings settings = config_path.empty() ? Settings{} : ReadSettings(config_path);
+  for (const std::string& assignment : set) SetByName(&settings, assignment);
+  fmt::print("{}", FormatSettings(settings));
+  return kDone;
+}
+
+namespace {
+
+// Options of one clip. The main command names them by figure, `retarget map` does not.
+void AddClipOptions(CLI::App* app, ClipOptions* clip, const std::string& figure, bool solve) {
+  const std::string suffix = figure.empty() ? "" : "-" + figure;
+  const std::string group = figure.empty() ? "Options" : "Clip " + figure;
+  clip->option = figure;
+  app->add_option("--units" + suffix, clip->units, "cm, m, mm, in, cmu or metres per unit (default: guess)")->group(group);
+  app->add_option("--up" + suffix, clip->up, "up axis (default: from the motion)")->check(CLI::IsMember({"y", "z"}))->group(group);
+  app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")->check(CLI::NonNegativeNumber)->group(group);
+  if (!solve) return;
+  app->add_option("--start" + suffix, clip->start, "seconds into the clip")->check(CLI::NonNegativeNumber)->group(group);
+  app->add_option("--stature" + suffix, clip->stature, "the motion on a body of this height (m)")->check(CLI::Range(0.5, 3.0))->group(group);
+}
+
+struct CommandLine {
+  RetargetOptions retarget;
+  FromClipsOptions from_clips;
+  ClipOptions map_clip;
+  std::string folder, file, config, check, picture;
+  std::vector<std::string> set, clips;
+  bool json = false, force = false;
+  int code = 0;
+
+  void Build(CLI::App* app) {
+    app->set_version_flag("--version", kGenerator);
+    app->require_subcommand(0, 1);
+    AddRetarget(app);
+    AddTools(app);
+    AddTemplate(app);
+  }
+
+  void AddRetarget(CLI::App* app) {
+    RetargetOptions& o = retarget;
+    app->add_option("--clip-a", o.clip[0].path, "first clip (BVH)");
+    app->add_option("--clip-b", o.clip[1].path, "second clip (BVH)");
+    app->add_option("--template", o.template_path, "template posture (YAML)");
+    app->add_option("--config", o.config_path, "weights and settings (YAML; see `retarget config`)");
+    app->add_option("--set", o.set, "one setting, such as weights.tangle=20 (repeatable)");
+    app->add_option("--out", o.out, "folder for the results")->capture_default_str();
+    app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
+    app->add_option("--fps", o.fps, "output frame rate")->check(CLI::Range(1.0, 1000.0))->capture_default_str();
+    app->add_option("--template-at", o.template_at, "instant laid into the template, s from the starts")->check(CLI::NonNegativeNumber)->capture_default_str();
+    app->add_option("--threads", o.threads, "0: all cores")->check(CLI::Range(0, 256));
+    app->add_flag("--json", o.json, "print the report as JSON");
+    app->add_flag("--force", o.force, "overwrite files that no earlier run wrote");
+    AddClipOptions(app, &o.clip[0], "a", true);
+    AddClipOptions(app, &o.clip[1], "b", true);
+  }
+
+  void AddTools(CLI::App* app) {
+    CLI::App* verify = app->add_subcommand("verify", "recompute all metrics from a run's files");
+    verify->add_option("folder", folder, "what --out was")->required();
+    verify->add_flag("--json", json);
+    verify->callback([this] { code = RunVerify(folder, json); });
+
+    CLI::App* tangles = app->add_subcommand("tangles", "what is tangled in a template or in node positions");
+    tangles->add_option("file", file, "template (YAML) or positions (JSON)")->required();
+    tangles->add_flag("--json", json);
+    tangles->callback([this] { code = RunTangles(file, json); });
+
+    CLI::App* map = app->add_subcommand("map", "what is recognised in a clip");
+    map->add_option("file", map_clip.path, "clip (BVH)")->required();
+    AddClipOptions(map, &map_clip, "", false);
+    map->add_flag("--json", json);
+    map->callback([this] { code = RunMap(map_clip, json); });
+
+    CLI::App* settings = app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");
+    settings->add_option("--config", config, "start from this file");
+    settings->add_option("--set", set, "change one setting");
+    settings->callback([this] { code = RunConfig(config, set); });
+
+    CLI::App* render = app->add_subcommand("render", "a picture of a run: source above result");
+    render->add_option("folder", folder, "what --out was")->required();
+    render->add_option("--out", picture, "PNG file (default: scene.png in the folder)");
+    render->add_flag("--force", force, "overwrite the file");
+    render->callback([this] {
+      code = RunRender(folder, picture.empty() ? folder + "/scene.png" : picture, force || picture.empty());
+    });
+  }
+
+  void AddTemplate(CLI::App* app) {
+    CLI::App* posture = app->add_subcommand("template", "make or check a template posture");
+    posture->add_option("--check", check, "verify this template (YAML)");
+    posture->add_option("--from-clips", clips, "two clips that share a world")->expected(2);
+    posture->add_option("--frame", from_clips.frame, "frame of both clips, from 0");
+    posture->add_option("--out", from_clips.out, "template to write (YAML)");
+    posture->add_option("--name", from_clips.name, "name of the new template")->default_str("from clips");
+    posture->add_flag("--force", from_clips.force, "overwrite the file");
+    posture->add_flag("--json", json);
+    AddClipOptions(posture, &from_clips.clip[0], "a", false);
+    AddClipOptions(posture, &from_clips.clip[1], "b", false);
+    posture->callback([this] { code = RunTemplate(); });
+  }
+
+  int RunTemplate() {
+    if (!check.empty() && clips.empty()) return RunTemplateCheck(check, json);
+    if (!check.empty() || clips.empty() || from_clips.out.empty()) {
+      throw InputError("template: expected --check FILE, or --from-clips A B --frame K --out FILE");
+    }
+    for (int f = 0; f < 2; ++f) from_clips.clip[f].path = clips[f];
+    if (from_clips.name.empty()) from_clips.name = "from clips";
+    return RunTemplateFromClips(from_clips);
+  }
+
+  int RunMain() const {
+    const std::pair<const char*, const std::string*> required[] = {
+        {"--clip-a", &retarget.clip[0].path}, {"--clip-b", &retarget.clip[1].path},
+        {"--template", &retarget.template_path}};
+    for (const auto& [name, value] : required) {
+      if (value->empty()) throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
+    }
+    return RunRetarget(retarget);
+  }
+};
+
+}  // namespace
+}  // namespace retarget
+
+int main(int argc, char** argv) {
+  using namespace retarget;
+  CLI::App app("Two motions, each captured alone, become one scene of two people tangled with each other.",
+               "retarget");
+  CommandLine command;
+  command.Build(&app);
+  try {
+    app.parse(argc, argv);
+    return app.get_subcommands().empty() ? command.RunMain() : command.code;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    fmt::print(stderr, "retarget: {}; see `retarget --help`\n", error.what());
+    return kBadInput;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "retarget: {}\n", error.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "retarget: internal error: {}\n", error.what());
+    return kInternal;
+  }
+}

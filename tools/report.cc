@@ -1,0 +1,265 @@
+#include "tools/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace retarget {
+namespace {
+
+constexpr const char* kFigure[2] = {"a", "b"};
+
+std::vector<std::string> NodeNames(const Body& body) {
+  std::vector<std::string> names;
+  for (const Node& node : body.nodes) names.push_back(node.name);
+  return names;
+}
+
+Json VectorJson(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Vec3 VectorFromJson(const Json& j) { return Vec3(j.at(0), j.at(1), j.at(2)); }
+
+Json PathJson(const Body& body, const Path& path) {
+  return Json::array({body.nodes[path.from].name, body.nodes[path.to].name});
+}
+
+Json HoldPointJson(const MeasureSubject& subject, const HoldPoint& point) {
+  if (point.figure == kWorld) return {{"figure", "world"}, {"position", VectorJson(point.offset)}};
+  return {{"figure", kFigure[point.figure]},
+          {"node", subject.body[point.figure].nodes[point.node].name},
+          {"offset", VectorJson(point.offset)}};
+}
+
+HoldPoint HoldPointFromJson(const MeasureSubject& subject, const Json& j) {
+  HoldPoint point;
+  const std::string figure = j.at("figure");
+  if (figure == "world") return {kWorld, 0, VectorFromJson(j.at("position"))};
+  point.figure = figure == "a" ? 0 : 1;
+  point.node = subject.body[point.figure].FindNode(j.at("node"));
+  point.offset = VectorFromJson(j.at("offset"));
+  return point;
+}
+
+Json FigureJson(const Body& body, const FigureMetrics& m) {
+  Json path;
+  for (int n = 1; n < body.num_nodes(); ++n) path[body.nodes[n].name] = m.path_m[n];
+  return {{"self_penetration_m", m.self_penetration_m},
+          {"floor_m", m.floor_m},
+          {"foot_drift_m", m.foot_drift_m},
+          {"foot_speed_max_m_s", m.foot_speed_max},
+          {"foot_speed_over_1cm_s_percent", m.foot_speed_over_1cm_percent},
+          {"pose_error_cm", m.pose_error_cm},
+          {"joint_edit_deg", m.joint_edit_deg},
+          {"jerk_m_s3", m.jerk},
+          {"jerk_ratio_own", m.jerk_ratio_own},
+          {"jerk_ratio_larger", m.jerk_ratio_larger},
+          {"length_error_percent", m.length_error_percent},
+          {"path_m", path}};
+}
+
+}  // namespace
+
+MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body) {
+  std::array<std::vector<int>, 2> nodes;
+  for (int f = 0; f < 2; ++f) nodes[f] = scene.FindNodes(kFigure[f], NodeNames(body[f]));
+  MotionView view;
+  const std::vector<double>& keys = scene.key_times;
+  view.num_frames = static_cast<int>(keys.size());
+  view.fps = keys.size() > 1 ? (static_cast<double>(keys.size()) - 1) / (keys.back() - keys.front()) : 30;
+  view.at = [&scene, nodes, keys](double frame, PostureSample* sample) {
+    const size_t k = std::min(static_cast<size_t>(frame), keys.size() - 1);
+    const double next = keys[std::min(k + 1, keys.size() - 1)];
+    const double time = keys[k] + (frame - static_cast<double>(k)) * (next - keys[k]);
+    for (int f = 0; f < 2; ++f) {
+      scene.NodeFrames(time, nodes[f], &sample->node[f], &sample->rotation[f]);
+    }
+  };
+  return view;
+}
+
+double WriteBackError(const RigMotion& written, double metres_per_unit, char up,
+                      const std::vector<NodeJoint>& joints, const MotionView& scene, int figure) {
+  const Quat turn = up == 'z' ? Quat(Eigen::AngleAxisd(-kPi / 2, Vec3::UnitX())) : Quat::Identity();
+  double worst = 0;
+  PostureSample sample;
+  const double end = (written.num_frames() - 1) * written.frame_time;
+  for (int t = 0; t < scene.num_frames; ++t) {
+    const double time = t / scene.fps;
+    if (time > end + 1e-6) break;  // the rig's own rate ends within the last output frame
+    scene.at(t, &sample);
+    const PosedRig posed = PoseRig(written.rig, SampleRig(written, time));
+    for (const NodeJoint& pair : joints) {
+      const Vec3 p = metres_per_unit * (turn * posed.position[pair.joint]);
+      worst = std::max(worst, (p - sample.node[figure][pair.node]).norm());
+    }
+  }
+  return worst;
+}
+
+Json MetricsJson(const MeasureSubject& subject, const Metrics& m) {
+  Json tangles = Json::array();
+  for (const TangleMetrics& t : m.tangles) {
+    tangles.push_back({{"min_signed_gli", t.min_signed_gli},
+                       {"min_signed_gli_between_frames", t.min_signed_gli_between},
+                       {"frames_below_half", t.frames_below_half},
+                       {"worst_frame", t.worst_frame}});
+  }
+  return {{"tangle_kept_percent", m.tangle_kept_percent},
+          {"smallest_gli", m.smallest_gli},
+          {"smallest_gli_between_frames", m.smallest_gli_between},
+          {"tangles", tangles},
+          {"pass_throughs", m.pass_throughs.size()},
+          {"penetration_m", m.penetration_m},
+          {"penetration_between_frames_m", m.penetration_between_m},
+          {"penetration_over_1cm_percent", m.penetration_over_1cm_percent},
+          {"hold_m", m.hold_m},
+          {"a", FigureJson(subject.body[0], m.figure[0])},
+          {"b", FigureJson(subject.body[1], m.figure[1])}};
+}
+
+Json SubjectJson(const MeasureSubject& subject, const Metrics& result) {
+  Json out;
+  out["tangles"] = Json::array();
+  for (size_t k = 0; k < subject.tangles.size(); ++k) {
+    const HeldTangle& held = subject.tangles[k];
+    out["tangles"].push_back({{"a", PathJson(subject.body[0], held.tag.tangle.a)},
+                              {"b", PathJson(subject.body[1], held.tag.tangle.b)},
+                              {"template_gli", held.tag.tangle.gli},
+                              {"target", held.target},
+                              {"rho", held.tag.rho},
+                              {"min_signed_gli", result.tangles[k].min_signed_gli},
+                              {"min_signed_gli_between_frames", result.tangles[k].min_signed_gli_between},
+                              {"frames_below_half", result.tangles[k].frames_below_half}});
+  }
+  out["pass_throughs"] = Json::array();
+  for (const PassThrough& p : result.pass_throughs) {
+    out["pass_throughs"].push_back({{"frame", p.frame},
+                                    {"a", subject.body[0].nodes[p.node_a].name},
+                                    {"b", subject.body[1].nodes[p.node_b].name}});
+  }
+  for (int f = 0; f < 2; ++f) {
+    const Body& body = subject.body[f];
+    Json& figure = out["bodies"][kFigure[f]];
+    figure["stature_m"] = body.stature;
+    for (int n = 1; n < body.num_nodes(); ++n) {
+      figure["radius"][body.nodes[n].name] = body.nodes[n].radius;
+      figure["length"][body.nodes[n].name] = subject.length[f][n];
+    }
+  }
+  for (int f = 0; f < 2; ++f) {
+    Json contacts = Json::array();
+    for (const Contact& c : subject.contacts[f]) {
+      contacts.push_back({{"node", subject.body[f].nodes[c.node].name},
+                          {"first", c.first},
+                          {"last", c.last}});
+    }
+    out["contacts"][kFigure[f]] = contacts;
+  }
+  out["holds"] = Json::array();
+  for (size_t k = 0; k < subject.holds.size(); ++k) {
+    const Hold& hold = subject.holds[k];
+    out["holds"].push_back({{"from", HoldPointJson(subject, hold.from)},
+                            {"to", HoldPointJson(subject, hold.to)},
+                            {"rotation", hold.rotation},
+                            {"largest_error_m", result.hold_m[k]},
+                            {"frame", result.hold_frame[k]}});
+  }
+  return out;
+}
+
+MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
+  try {
+    MeasureSubject subject;
+    for (int f = 0; f < 2; ++f) {
+      const Json& figure = report.at("bodies").at(kFigure[f]);
+      Body& body = subject.body[f];
+      body = StandardBody(AverageMeasures(figure.at("stature_m")));
+      subject.length[f].assign(body.nodes.size(), 0);
+      for (int n = 1; n < body.num_nodes(); ++n) {
+        body.nodes[n].radius = figure.at("radius").at(body.nodes[n].name);
+        subject.length[f][n] = figure.at("length").at(body.nodes[n].name);
+      }
+      for (const Json& c : report.at("contacts").at(kFigure[f])) {
+        subject.contacts[f].push_back({body.FindNode(c.at("node")), c.at("first"), c.at("last")});
+      }
+    }
+    const auto path_of = [&](int f, const Json& j) {
+      return Path{subject.body[f].FindNode(j.at(0)), subject.body[f].FindNode(j.at(1))};
+    };
+    for (const Json& t : report.at("tangles")) {
+      HeldTangle held;
+      held.tag.tangle = {path_of(0, t.at("a")), path_of(1, t.at("b")), t.at("template_gli")};
+      held.sign = held.tag.tangle.gli < 0 ? -1 : 1;
+      held.target = t.at("target");
+      subject.tangles.push_back(held);
+    }
+    for (const Json& h : report.at("holds")) {
+      Hold hold;
+      hold.from = HoldPointFromJson(subject, h.at("from"));
+      hold.to = HoldPointFromJson(subject, h.at("to"));
+      subject.holds.push_back(hold);
+    }
+    return subject;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(path + ": not a report of this program: " + error.what());
+  }
+}
+
+Json ChecksJson(const std::vector<RequirementCheck>& checks) {
+  Json out = Json::array();
+  for (const RequirementCheck& c : checks) {
+    out.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"unit", c.unit},
+                   {"met", c.met}, {"where", c.where}});
+  }
+  return out;
+}
+
+std::string MetricsTable(const MeasureSubject& subject, const Metrics* source, const Metrics& result,
+                         const std::vector<RequirementCheck>& checks) {
+  std::string out = fmt::format("{:<34}{:>12}{:>12}\n", "", source ? "source" : "", "result");
+  const auto row = [&](const std::string& name, const std::string& unit, auto value) {
+    const std::string before = source ? fmt::format("{:.2f}", value(*source)) : "";
+    out += fmt::format("{:<34}{:>12}{:>12} {}\n", name, before, fmt::format("{:.2f}", value(result)), unit);
+  };
+  row("tangles kept", "% of frames", [](const Metrics& m) { return m.tangle_kept_percent; });
+  row("smallest s GLI, also between frames", "turns",
+      [](const Metrics& m) { return std::min(m.smallest_gli, m.smallest_gli_between); });
+  row("pass-throughs", "", [](const Metrics& m) { return static_cast<double>(m.pass_throughs.size()); });
+  row("deepest penetration", "cm",
+      [](const Metrics& m) { return 100 * std::max(m.penetration_m, m.penetration_between_m); });
+  row("penetration over 1 cm", "% of frames", [](const Metrics& m) { return m.penetration_over_1cm_percent; });
+  if (!result.hold_m.empty()) {
+    row("hold error", "cm", [](const Metrics& m) {
+      return 100 * *std::max_element(m.hold_m.begin(), m.hold_m.end());
+    });
+  }
+  for (int f = 0; f < 2; ++f) {
+    const std::string who = std::string(" ") + kFigure[f];
+    const auto figure = [&](const char* name, const char* unit, auto value) {
+      row(name + who, unit, [&](const Metrics& m) { return value(m.figure[f]); });
+    };
+    figure("foot drift", "cm", [](const FigureMetrics& m) { return 100 * m.foot_drift_m; });
+    figure("foot speed over 1 cm/s", "% of stance", [](const FigureMetrics& m) { return m.foot_speed_over_1cm_percent; });
+    figure("below the floor", "cm", [](const FigureMetrics& m) { return 100 * m.floor_m; });
+    figure("self-penetration", "cm", [](const FigureMetrics& m) { return 100 * m.self_penetration_m; });
+    figure("pose error", "cm", [](const FigureMetrics& m) { return m.pose_error_cm; });
+    figure("joint edit", "deg", [](const FigureMetrics& m) { return m.joint_edit_deg; });
+    figure("jerk, to the larger source", "x", [](const FigureMetrics& m) { return m.jerk_ratio_larger; });
+  }
+  for (size_t k = 0; k < subject.tangles.size(); ++k) {
+    const Tangle& t = subject.tangles[k].tag.tangle;
+    const auto name = [&](int f, int n) { return subject.body[f].nodes[n].name; };
+    out += fmt::format("tag {}: a ({}, {}) x b ({}, {}): template {:.2f}, smallest {:.3f}\n", k + 1,
+                       name(0, t.a.from), name(0, t.a.to), name(1, t.b.from), name(1, t.b.to),
+                       t.gli, result.tangles[k].min_signed_gli);
+  }
+  for (const RequirementCheck& c : checks) {
+    if (c.met) continue;
+    out += fmt::format("MISSED {}: {:.4g} {}, required {:.4g}{}{}\n", c.name, c.value, c.unit,
+                       c.limit, c.where.empty() ? "" : " at ", c.where);
+  }
+  return out;
+}
+
+}  // namespace retarget

@@ -1,0 +1,40 @@
+// report.json and the table on the terminal. The schema is described in docs/report.md.
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/scene_motion.h"
+#include "solver/measure.h"
+#include "solver/retarget.h"
+#include "tools/load_clip.h"
+
+namespace retarget {
+
+using Json = nlohmann::ordered_json;
+
+// A written scene as a motion to be measured.
+MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body);
+
+// Largest distance (m) between the joints of a written-back motion and the scene's nodes, over all
+// output frames. `joints` pairs nodes with rig joints.
+struct NodeJoint {
+  int node, joint;
+};
+double WriteBackError(const RigMotion& written, double metres_per_unit, char up,
+                      const std::vector<NodeJoint>& joints, const MotionView& scene, int figure);
+inline constexpr double kWriteBackLimit = 0.005;  // m
+
+Json MetricsJson(const MeasureSubject& subject, const Metrics& metrics);
+Json SubjectJson(const MeasureSubject& subject, const Metrics& result);
+// The subject of a report read back. Throws InputError naming `path`.
+MeasureSubject SubjectFromJson(const Json& report, const std::string& path);
+
+// "metric | source | result | required", one line each, with what is missed marked.
+std::string MetricsTable(const MeasureSubject& subject, const Metrics* source, const Metrics& result,
+                         const std::vector<RequirementCheck>& checks);
+Json ChecksJson(const std::vector<RequirementCheck>& checks);
+
+}  // namespace retarget

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that a build needs; with --tests also what the tests need.
+# Does nothing where they are there already.
+set -euo pipefail
+
+packages=(g++ cmake ninja-build pkg-config ccache libceres-dev libeigen3-dev libglm-dev
+          libtinygltf-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev zlib1g-dev)
+if [[ ${1:-} == --tests ]]; then
+  packages+=(libgtest-dev)
+  command -v node >/dev/null || packages+=(nodejs)
+  command -v npm >/dev/null || packages+=(npm)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+((${#missing[@]} == 0)) && exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "setup: no apt-get here; install by hand: ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+[[ $(id -u) == 0 ]] || as_root=(sudo)
+"${as_root[@]}" apt-get update -qq
+DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}"

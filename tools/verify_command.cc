@@ -1,0 +1,88 @@
+// `retarget verify DIR`: every metric again, from the written files alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/scene_glb.h"
+#include "io/settings_file.h"
+#include "tools/commands.h"
+#include "tools/files.h"
+#include "tools/report.h"
+
+namespace retarget {
+namespace {
+
+RequirementCheck CheckWriteBack(const Json& written, const std::string& folder, int f,
+                                const MotionView& scene, const Body& body) {
+  const std::string file = written.at("file");
+  const RigMotion motion = ReadBvh(folder + "/" + file).motion;
+  std::vector<NodeJoint> joints;
+  for (const auto& [node, bone] : written.at("joints").items()) {
+    const int joint = motion.rig.Find(bone.get<std::string>());
+    if (joint < 0) throw InputError(folder + "/" + file + ": has no joint " + bone.get<std::string>());
+    joints.push_back({body.FindNode(node), joint});
+  }
+  const std::string up = written.at("up");
+  const double error = WriteBackError(motion, written.at("units"), up[0], joints, scene, f);
+  return {std::string("write-back ") + (f == 0 ? "a" : "b"), error, kWriteBackLimit, "m",
+          error <= kWriteBackLimit, file};
+}
+
+}  // namespace
+
+int RunVerify(const std::string& folder, bool json) {
+  const std::string report_path = folder + "/report.json";
+  Json report;
+  try {
+    report = Json::parse(ReadFile(report_path));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(report_path + ": " + error.what());
+  }
+  const MeasureSubject subject = SubjectFromJson(report, report_path);
+  const Settings settings = ReadSettings(folder + "/config.yaml");
+  const SceneMotion scene = ReadSceneGlb(folder + "/scene.glb");
+  const SceneMotion source = ReadSceneGlb(folder + "/source.glb");
+  const MotionView scene_view = ViewOfScene(scene, subject.body);
+  const MotionView source_view = ViewOfScene(source, subject.body);
+  if (scene_view.num_frames != source_view.num_frames) {
+    throw InputError(fmt::format("{}: scene.glb has {} frames, source.glb {}", folder,
+                                 scene_view.num_frames, source_view.num_frames));
+  }
+  for (int f = 0; f < 2; ++f) {
+    for (const Contact& c : subject.contacts[f]) {
+      if (c.node < 0 || c.first < 0 || c.last >= scene_view.num_frames || c.last < c.first) {
+        throw InputError(report_path + ": a contact lies outside the scene's frames");
+      }
+    }
+  }
+  const Metrics metrics = Measure(subject, scene_view, source_view);
+  const Metrics source_metrics = Measure(subject, source_view, source_view);
+  std::vector<RequirementCheck> checks = CheckRequirements(subject, metrics, settings.requirements);
+  for (int f = 0; f < 2; ++f) {
+    const char* figure = f == 0 ? "a" : "b";
+    try {
+      checks.push_back(CheckWriteBack(report.at("write_back").at(figure), folder, f, scene_view,
+                                      subject.body[f]));
+    } catch (const nlohmann::json::exception& error) {
+      throw InputError(report_path + ": " + error.what());
+    }
+    const double length = metrics.figure[f].length_error_percent;
+    checks.push_back({std::string("segment lengths ") + figure, length, 0.5, "%", length <= 0.5, ""});
+  }
+  const bool all_met = std::all_of(checks.begin(), checks.end(),
+                                   [](const RequirementCheck& c) { return c.met; });
+  if (json) {
+    const Json out = {{"requirements_met", all_met},
+                      {"requirements", ChecksJson(checks)},
+                      {"metrics", {{"source", MetricsJson(subject, source_metrics)},
+                                   {"result", MetricsJson(subject, metrics)}}}};
+    fmt::print("{}\n", out.dump(1));
+  } else {
+    fmt::print("{}", MetricsTable(subject, &source_metrics, metrics, checks));
+    fmt::print("{}\n", all_met ? "every requirement is met" : "a requirement is MISSED, see above");
+  }
+  return all_met ? kDone : kMissed;
+}
+
+}  // namespace retarget
