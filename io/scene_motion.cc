@@ -52,7 +52,8 @@ Quat SceneMotion::RotationAt(const Node& node, const Instant& instant) const {
   return track[instant.key].slerp(instant.share, track[instant.key + 1]);  // the shorter arc
 }
 
-std::vector<SceneMotion::Placed> SceneMotion::Place(double t, const std::vector<int>& nodes) const {
+void SceneMotion::Place(double t, const std::vector<int>& nodes, std::vector<Mat3>* linear,
+                        std::vector<Vec3>* origin) const {
   // Work out only the nodes asked for and what they hang from; parents stand before children.
   std::vector<char> needed(nodes_.size(), 0);
   for (const int n : nodes) needed[n] = 1;
@@ -60,37 +61,41 @@ std::vector<SceneMotion::Placed> SceneMotion::Place(double t, const std::vector<
     if (needed[n] && nodes_[n].parent >= 0) needed[nodes_[n].parent] = 1;
   }
   const Instant instant = At(t);
-  std::vector<Placed> placed(nodes_.size());
+  linear->resize(nodes_.size());
+  origin->resize(nodes_.size());
   for (size_t n = 0; n < nodes_.size(); ++n) {
     if (!needed[n]) continue;
     const Node& node = nodes_[n];
-    Placed& own = placed[n];
-    own.linear.noalias() = RotationAt(node, instant).toRotationMatrix() * node.stretch;
-    own.origin = TranslationAt(node, instant);
+    Mat3& own = (*linear)[n];
+    own.noalias() = RotationAt(node, instant).toRotationMatrix() * node.stretch;
+    (*origin)[n] = TranslationAt(node, instant);
     if (node.parent < 0) continue;
-    const Placed& parent = placed[node.parent];
-    own.origin = parent.origin + parent.linear * own.origin;
-    own.linear = parent.linear * own.linear;
+    const Mat3& parent = (*linear)[node.parent];
+    (*origin)[n] = (*origin)[node.parent] + parent * (*origin)[n];
+    own = parent * own;
   }
-  return placed;
 }
 
 void SceneMotion::NodePositions(double t, const std::vector<int>& nodes,
                                 std::vector<Vec3>* out) const {
-  const std::vector<Placed> placed = Place(t, nodes);
+  std::vector<Mat3> linear;
+  std::vector<Vec3> origin;
+  Place(t, nodes, &linear, &origin);
   out->clear();
-  for (const int n : nodes) out->push_back(placed[n].origin);
+  for (const int n : nodes) out->push_back(origin[n]);
 }
 
 void SceneMotion::NodeFrames(double t, const std::vector<int>& nodes, std::vector<Vec3>* position,
                              std::vector<Quat>* carrier_rotation) const {
-  const std::vector<Placed> placed = Place(t, nodes);
+  std::vector<Mat3> linear;
+  std::vector<Vec3> origin;
+  Place(t, nodes, &linear, &origin);
   position->clear();
   carrier_rotation->clear();
   for (const int n : nodes) {
     const int carrier = nodes_[n].parent < 0 ? n : nodes_[n].parent;
-    position->push_back(placed[n].origin);
-    carrier_rotation->push_back(NearestRotation(placed[carrier].linear));
+    position->push_back(origin[n]);
+    carrier_rotation->push_back(NearestRotation(linear[carrier]));
   }
 }
 

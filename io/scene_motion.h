@@ -54,14 +54,10 @@ class SceneMotion {
     double share = 0;
   };
 
-  // World transform of a node: p -> origin + linear * p.
-  struct Placed {
-    Mat3 linear;
-    Vec3 origin;
-  };
-
-  // The `nodes` and all they hang from at time `t`; the others are not filled. [nodes of the file]
-  std::vector<Placed> Place(double t, const std::vector<int>& nodes) const;
+  // World transforms p -> origin + linear * p at time `t` of `nodes` and of all they hang from; the
+  // others are not filled. [nodes of the file]
+  void Place(double t, const std::vector<int>& nodes, std::vector<Mat3>* linear,
+             std::vector<Vec3>* origin) const;
 
   Instant At(double t) const;
   Vec3 TranslationAt(const Node& node, const Instant& instant) const;

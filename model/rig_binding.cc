@@ -8,6 +8,7 @@
 namespace retarget {
 namespace {
 
+constexpr double kSpineSlack = 0.003;  // m of distance not worth bending a spine for
 constexpr int kMostSamples = 300;  // frames looked at for lengths and the reference
 
 // Links of the standard body, in its order (model/body.cc).
@@ -42,6 +43,20 @@ int CommonAncestor(const Rig& rig, int i, int j) {
     if (later < 0) return -1;
   }
   return i;
+}
+
+// The turn of `upper` that brings the end of lower + upper to `distance` from its beginning, in the
+// plane of the two (about `axis` where they are in line); as near as their lengths allow.
+Quat BendToDistance(const Vec3& lower, const Vec3& upper, double distance, const Vec3& axis) {
+  const double a = lower.norm(), b = upper.norm();
+  if (a < 1e-6 || b < 1e-6) return Quat::Identity();
+  const Vec3 normal = lower.cross(upper);
+  const Vec3 about = normal.norm() > 1e-6 * a * b ? Vec3(normal.normalized()) : axis;
+  // Angle between the two directions: |lower + upper|^2 = a^2 + b^2 + 2 a b cos(angle).
+  const double cosine = (distance * distance - a * a - b * b) / (2 * a * b);
+  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double now = std::acos(std::clamp(lower.dot(upper) / (a * b), -1.0, 1.0));
+  return Quat(Eigen::AngleAxisd(angle - now, about));
 }
 
 void Require(int joint, const char* part) {
@@ -322,6 +337,36 @@ void RigBinding::EstimateHinges(const std::vector<World>& frames) {
   }
 }
 
+// A rig's spine begins some way above the root, so it cannot carry the chest as far round the root as
+// the waist joint can turn: beyond some angle the chest would be out of its reach. That angle is the
+// waist's limit on this rig.
+void RigBinding::LimitWaist(const std::vector<World>& frames) {
+  if (spine_group_.empty()) return;
+  std::vector<Vec3> first;
+  std::vector<double> reach;
+  for (const World& world : frames) {
+    const std::vector<Quat> rotation = LinkRotations(world);
+    const Vec3& root = world.position[map_.root];
+    first.push_back(rotation[kRoot].conjugate() * (world.position[spine_group_.front()] - root));
+    double length = 0;
+    for (size_t k = 0; k < spine_group_.size(); ++k) {
+      const int next = k + 1 < spine_group_.size() ? spine_group_[k + 1] : link_[kChest].from;
+      length += (world.position[next] - world.position[spine_group_[k]]).norm();
+    }
+    reach.push_back(length);
+  }
+  const Vec3 pivot = Median(first);
+  const double p = pivot.norm(), r = body_.nodes[1].offset.norm();
+  if (p < 0.01) return;  // the spine begins at the root: no limit
+  const double longest = Median(reach) + kSpineSlack;
+  const double cosine = (r * r + p * p - longest * longest) / (2 * r * p);
+  JointLimit& limit = body_.links[kWaist].limit;
+  const double swing = std::acos(std::clamp(cosine, -1.0, 1.0));
+  if (swing >= limit.swing_max) return;
+  limit.swing_max = swing;
+  limit.swing_centre = pivot / p;
+}
+
 RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest_bone,
                        double stature)
     : rig_(motion.rig), map_(facts.map), scale_(facts.metres_per_unit) {
@@ -335,6 +380,7 @@ RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest
   const BodyMeasures measures = Measure(frames);
   body_ = StandardBody(measures);
   EstimateHinges(frames);
+  LimitWaist(frames);
   body_.links[kWaist].locked = spine_group_.empty();
   for (const int arm : {kLeftClavicle, kRightClavicle}) {
     body_.links[arm].locked = link_[arm].bone == chest_bone;
@@ -372,23 +418,37 @@ std::vector<Vec3> RigBinding::JointPositions(const RigFrame& frame) const {
 }
 
 // The spine bones carry the chest to where the waist link has it. The first of them need not stand
-// at the root, so turning them all by the waist's edit leaves the chest a little off; a turn about
-// the first one takes that up.
+// at the root, so turning them all by the waist's edit leaves the chest a little off: a turn about
+// the first one brings it into line, and a bend at the second takes up the difference in distance,
+// as far as it exceeds what is not worth bending a spine for.
 void RigBinding::SpreadOverSpine(const World& captured, const std::vector<Quat>& edit,
                                  const Vec3& root_position, std::vector<Quat>* rotation) const {
-  if (spine_group_.empty()) return;
   const Vec3& root = captured.position[map_.root];
   const Vec3& first = captured.position[spine_group_.front()];
   const Vec3& chest = captured.position[link_[kChest].from];
   const Vec3 pivot = root_position + edit[kRoot] * (first - root);
   const Vec3 target = root_position + edit[kWaist] * (chest - root);
-  const Vec3 reached = edit[kWaist] * (chest - first);
-  Quat correction = Quat::Identity();
-  if (reached.norm() > 1e-6 && (target - pivot).norm() > 1e-6) {
-    correction = RotationBetween(reached.normalized(), (target - pivot).normalized());
+  Vec3 reached = edit[kWaist] * (chest - first);  // from the pivot
+  Quat bend = Quat::Identity();
+  if (spine_group_.size() > 1) {
+    const Vec3 lower = edit[kWaist] * (captured.position[spine_group_[1]] - first);
+    const Vec3 upper = reached - lower;
+    const double distance = std::clamp((target - pivot).norm(), reached.norm() - kSpineSlack,
+                                       reached.norm() + kSpineSlack);
+    const double excess = (target - pivot).norm() - distance;
+    if (excess != 0) {
+      bend = BendToDistance(lower, upper, reached.norm() + excess, edit[kRoot] * Vec3::UnitX());
+      reached = lower + bend * upper;
+    }
   }
-  for (const int bone : spine_group_) {
-    (*rotation)[bone] = correction * edit[kWaist] * captured.rotation[bone];
+  Quat turn = Quat::Identity();
+  if (reached.norm() > 1e-6 && (target - pivot).norm() > 1e-6) {
+    turn = RotationBetween(reached.normalized(), (target - pivot).normalized());
+  }
+  for (size_t k = 0; k < spine_group_.size(); ++k) {
+    const int bone = spine_group_[k];
+    (*rotation)[bone] = turn * (k > 0 ? bend : Quat::Identity()) * edit[kWaist] *
+                        captured.rotation[bone];
   }
 }
 

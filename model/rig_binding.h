@@ -68,6 +68,7 @@ class RigBinding {
   BodyMeasures Measure(const std::vector<World>& frames) const;
   std::vector<Quat> LinkRotations(const World& world) const;
   void EstimateHinges(const std::vector<World>& frames);
+  void LimitWaist(const std::vector<World>& frames);
   void SpreadOverSpine(const World& captured, const std::vector<Quat>& edit,
                        const Vec3& root_position, std::vector<Quat>* rotation) const;
 

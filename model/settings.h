@@ -18,7 +18,7 @@ struct Weights {
   double self_penetration = 60;
   double ground = 100;
   double tangle = 20;
-  double joint_limit = 2;
+  double joint_limit = 10;
 };
 
 // Shares of weights.pose_tracking and of weights.smoothness, by joint group.
@@ -30,6 +30,7 @@ struct JointWeights {
 struct TangleSettings {
   double margin = 0.05;      // turns over one half that a tag aims for
   double min_rho = 0.08;
+  double min_rho_share = 0.3;
   int max_tags = 6;
 };
 
@@ -107,6 +108,7 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   auto& t = s.tangle;
   visit("tangle.margin", t.margin, "turns", "a tag aims this far over one half (never over the template)", 0, 0.5);
   visit("tangle.min_rho", t.min_rho, "rad, m", "weaker tangles are not tagged", 0, 10);
+  visit("tangle.min_rho_share", t.min_rho_share, "", "nor those this much weaker than the most robust", 0, 1);
   visit("tangle.max_tags", t.max_tags, "", "largest number of tags", 1, 100);
   auto& r = s.requirements;
   visit("requirements.gli", r.gli, "turns", "every tag, signed, at every instant", 0, 2);

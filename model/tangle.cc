@@ -194,7 +194,9 @@ std::vector<Tag> ReduceTangles(const Body& a, const PosedBody& posed_a, const Bo
   std::vector<Tag> tags;
   while (!left.empty() && static_cast<int>(tags.size()) < options.max_tags) {
     const Candidate best = left.front();
-    if (!tags.empty() && best.tag.rho < options.min_rho) break;
+    const bool weak = !tags.empty() && best.tag.rho < std::max(options.min_rho,
+                                                              options.min_rho_share * tags[0].rho);
+    if (weak) break;
     Candidate chosen = best;
     std::vector<Candidate> others;
     for (const Candidate& c : left) {

@@ -38,6 +38,8 @@ struct ReductionOptions {
   double same_crossings = 0.6;  // cosine above which two tangles share their crossings
   double keep_rho = 0.8;        // a shorter pair may cost this share of the best robustness
   double min_rho = 0.08;        // weaker groups are dropped (the first is always kept)
+  double min_rho_share = 0.3;   // and those this much weaker than the first: they bind more than
+                                // they say, since a step changes them through the legs or the head
   int max_tags = 6;
 };
 

@@ -16,8 +16,8 @@
 
 namespace retarget {
 
-// Coordinates of an anchor.
-inline constexpr int kAnchorSize = 3;
+// Coordinates of an anchor: x and z.
+inline constexpr int kAnchorSize = 2;
 
 // What one frame brings to the normal equations J^T J x = -J^T r.
 struct FrameBlock {
@@ -25,9 +25,9 @@ struct FrameBlock {
   VecX gradient;                // J^T r [n]
   // Anchors that stand in this frame: their rows of J^T J and J^T r.
   std::vector<int> anchors;
-  MatX anchor_coupling;         // [3 anchors x n]
-  VecX anchor_diagonal;         // [3 anchors]
-  VecX anchor_gradient;         // [3 anchors]
+  MatX anchor_coupling;         // [2 anchors x n]
+  VecX anchor_diagonal;         // [2 anchors]
+  VecX anchor_gradient;         // [2 anchors]
 };
 
 // The frames of an anchor's contact, both included.
@@ -37,10 +37,10 @@ struct AnchorSpan {
 
 struct BandedStep {
   MatX frames;           // [n x frames]
-  MatX anchors;          // [3 x anchors]
+  MatX anchors;          // [2 x anchors]
   MatX diagonal;         // of J^T J, undamped [n x frames]
   MatX gradient;         // J^T r [n x frames]
-  MatX anchor_gradient;  // [3 x anchors]
+  MatX anchor_gradient;  // [2 x anchors]
 };
 
 class BandedSystem {

@@ -1,5 +1,5 @@
 // The terms in Ceres Solver: the one file that knows it. Every joint edit is a parameter block of
-// three, every anchor too; clips are solved by conjugate gradients on the normal equations with a
+// three, every anchor one of two; clips are solved by conjugate gradients on the normal equations with a
 // block Jacobi preconditioner, single frames by dense Cholesky.
 #include <ceres/ceres.h>
 
@@ -16,7 +16,8 @@ namespace retarget {
 namespace {
 
 constexpr double kGuardReach = 0.25;  // m; pairs further apart cannot meet within a step
-constexpr int kBlock = 3;
+constexpr int kBlock = 3;             // of a joint's edit
+constexpr int kAnchor = 2;
 constexpr double kFreeRadius = 1e3;   // of the trust region, over diag(J^T J)
 
 // Ceres wants a fixed number of residuals, hinges come and go: the rows of a term in one frame go
@@ -104,7 +105,8 @@ class TermCostFunction : public ceres::CostFunction {
       : cache_(cache), term_(term), t_(t), weight_(weight), anchors_(std::move(anchors)) {
     set_num_residuals(slots);
     blocks_ = cache->frame(t).scene ? cache->frame(t).scene->num_coordinates() / kBlock : 0;
-    mutable_parameter_block_sizes()->assign(static_cast<size_t>(blocks_) + anchors_.size(), kBlock);
+    mutable_parameter_block_sizes()->assign(static_cast<size_t>(blocks_), kBlock);
+    mutable_parameter_block_sizes()->resize(static_cast<size_t>(blocks_) + anchors_.size(), kAnchor);
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
@@ -142,7 +144,8 @@ class TermCostFunction : public ceres::CostFunction {
  private:
   void Clear(double** jacobians) const {
     for (size_t b = 0; b < parameter_block_sizes().size(); ++b) {
-      if (jacobians[b]) std::fill(jacobians[b], jacobians[b] + kBlock * num_residuals(), 0.0);
+      const int size = parameter_block_sizes()[b] * num_residuals();
+      if (jacobians[b]) std::fill(jacobians[b], jacobians[b] + size, 0.0);
     }
   }
 
@@ -157,7 +160,7 @@ class TermCostFunction : public ceres::CostFunction {
       if (e.row != row) continue;
       const auto at = std::find(anchors_.begin(), anchors_.end(), e.anchor);
       double* j = jacobians[blocks_ + (at - anchors_.begin())];
-      if (j) j[kBlock * slot + e.component] += factor * e.value;
+      if (j) j[kAnchor * slot + e.component] += factor * e.value;
     }
   }
 

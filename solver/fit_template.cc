@@ -1,6 +1,7 @@
 #include "solver/fit_template.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/path.h"
 #include "solver/problem.h"
@@ -8,6 +9,9 @@
 
 namespace retarget {
 namespace {
+
+constexpr double kLargestChange = 0.02;  // of a segment's length, per step of the fit
+constexpr int kMostSteps = 40;
 
 double GliOf(const TemplatePosture& posture, const std::array<PosedBody, 2>& posed,
              const Path& path_a, const Path& path_b) {
@@ -22,6 +26,29 @@ double GliOf(const TemplatePosture& posture, const std::array<PosedBody, 2>& pos
 
 std::array<PosedBody, 2> PosedFigures(const TemplatePosture& posture) {
   return {PoseBody(posture.body[0], posture.pose[0]), PoseBody(posture.body[1], posture.pose[1])};
+}
+
+// The body a share u of the way from one to another of the same tree.
+Body Between(const Body& from, const Body& to, double u) {
+  Body out = to;
+  out.stature = (1 - u) * from.stature + u * to.stature;
+  for (size_t l = 0; l < out.links.size(); ++l) {
+    out.links[l].centre = (1 - u) * from.links[l].centre + u * to.links[l].centre;
+  }
+  for (size_t n = 0; n < out.nodes.size(); ++n) {
+    out.nodes[n].offset = (1 - u) * from.nodes[n].offset + u * to.nodes[n].offset;
+    out.nodes[n].radius = (1 - u) * from.nodes[n].radius + u * to.nodes[n].radius;
+  }
+  return out;
+}
+
+// Steps from body to body: no segment changes by more than kLargestChange of its length in one.
+int StepsBetween(const Body& from, const Body& to) {
+  double change = 0;
+  for (int n = 1; n < to.num_nodes(); ++n) {
+    change = std::max(change, std::abs(to.SegmentLength(n) / from.SegmentLength(n) - 1));
+  }
+  return std::clamp(static_cast<int>(std::ceil(change / kLargestChange)), 1, kMostSteps);
 }
 
 }  // namespace
@@ -44,6 +71,7 @@ TemplateTangles FindTemplateTangles(const TemplatePosture& posture,
   }
   ReductionOptions options;
   options.min_rho = settings.min_rho;
+  options.min_rho_share = settings.min_rho_share;
   options.max_tags = settings.max_tags;
   out.tags = ReduceTangles(a, posed[0], b, posed[1], out.literal, table, options);
   return out;
@@ -63,24 +91,41 @@ std::vector<HeldTangle> HoldTangles(const std::vector<Tag>& tags, const Template
 
 TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Body, 2>& body,
                             const std::vector<Tag>& tags, const Settings& settings) {
-  TemplatePosture fitted = OnBodies(posture, body);
-  Scene scene;
-  scene.body = body;
-  scene.posture = fitted;
-  for (int f = 0; f < 2; ++f) scene.source[f].frames = {fitted.pose[f]};
-  // The value that counts is the template's own: on its bodies, not on these.
-  scene.tangles = HoldTangles(tags, posture, settings.tangle.margin);
-  scene.holds = fitted.holds;
   Settings one_frame = settings;
   one_frame.solve.max_iterations = 200;
   one_frame.solve.max_seconds = 0;
-  one_frame.solve.polish_decrease = 1e-6;
+  one_frame.solve.polish_decrease = 1e-5;
   one_frame.solve.backend = "banded";
-  const Problem problem(scene, one_frame);
-  const SolveResult solved =
-      SolveSpacetime(problem, UnknownsFromPoses(scene, scene.source), nullptr);
-  const std::array<Clip, 2> poses = EditedClips(scene, solved.unknowns);
-  for (int f = 0; f < 2; ++f) fitted.pose[f] = poses[f].frames[0];
+  one_frame.solve.threads = 1;
+  one_frame.solve.stages = "1";
+  const int steps = std::max(StepsBetween(posture.body[0], body[0]),
+                             StepsBetween(posture.body[1], body[1]));
+  Scene scene;
+  // The value that counts is the template's own: on its bodies, not on these.
+  scene.tangles = HoldTangles(tags, posture, settings.tangle.margin);
+  TemplatePosture fitted = posture;
+  TemplatePosture last = posture;
+  for (int k = 1; k <= steps; ++k) {
+    const double u = static_cast<double>(k) / steps;
+    const TemplatePosture wanted = OnBodies(posture, {Between(posture.body[0], body[0], u),
+                                                      Between(posture.body[1], body[1], u)});
+    scene.body = wanted.body;
+    scene.posture = wanted;
+    scene.holds = wanted.holds;
+    std::array<Clip, 2> start;
+    for (int f = 0; f < 2; ++f) {
+      scene.source[f].frames = {wanted.pose[f]};
+      start[f].frames = {fitted.pose[f]};
+      start[f].frames[0].root_position += wanted.pose[f].root_position - last.pose[f].root_position;
+    }
+    const Problem problem(scene, one_frame);
+    const SolveResult solved = SolveSpacetime(problem, UnknownsFromPoses(scene, start), nullptr);
+    const std::array<Clip, 2> poses = EditedClips(scene, solved.unknowns);
+    fitted = wanted;
+    for (int f = 0; f < 2; ++f) fitted.pose[f] = poses[f].frames[0];
+    last = wanted;
+  }
+  fitted.body = body;
   return fitted;
 }
 

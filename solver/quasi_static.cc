@@ -118,7 +118,8 @@ class Pass {
   void SetFrame(int t, bool derivatives) {
     frame_.Set(scene_, x_, t, derivatives);
     for (const FreeAnchor& free : free_anchors_) {
-      x_.anchor.col(free.anchor) = frame_.posed[free.figure].node[free.node];
+      const Vec3& foot = frame_.posed[free.figure].node[free.node];
+      x_.anchor.col(free.anchor) << foot.x(), foot.z();
     }
   }
 

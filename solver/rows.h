@@ -24,7 +24,7 @@ class Rows {
   struct AnchorEntry {
     int row;
     int anchor;     // column of Unknowns::anchor
-    int component;  // x, y, z
+    int component;  // 0: x, 1: z
     double value;
   };
 

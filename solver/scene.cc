@@ -27,7 +27,7 @@ void EditedPose(const Pose& source, const double* x, Pose* pose) {
 Unknowns UnknownsFromPoses(const Scene& scene, const std::array<Clip, 2>& poses) {
   Unknowns u;
   u.edit.resize(scene.num_coordinates(), scene.num_frames());
-  u.anchor.setZero(3, static_cast<long>(scene.contacts[0].size() + scene.contacts[1].size()));
+  u.anchor.setZero(2, static_cast<long>(scene.contacts[0].size() + scene.contacts[1].size()));
   int anchor = 0;
   for (int f = 0; f < 2; ++f) {
     std::vector<PosedBody> posed(scene.num_frames());
@@ -40,7 +40,7 @@ Unknowns UnknownsFromPoses(const Scene& scene, const std::array<Clip, 2>& poses)
       Vec3 mean = Vec3::Zero();
       for (int t = contact.first; t <= contact.last; ++t) mean += posed[t].node[contact.node];
       mean /= contact.last - contact.first + 1;
-      u.anchor.col(anchor++) = mean;
+      u.anchor.col(anchor++) << mean.x(), mean.z();
     }
   }
   return u;

@@ -37,7 +37,7 @@ struct Scene {
 
 // The unknowns. Column t of `edit` is the edit of frame t: per figure the root's translation (m) and
 // a rotation vector (rad) per link, R = R_source exp(delta). `anchor` holds where each contact
-// stands: column k of [3 x contacts of a, then of b] is the place of its node (m).
+// stands: column k of [2 x contacts of a, then of b] is its place on the floor, x and z (m).
 struct Unknowns {
   MatX edit;
   MatX anchor;

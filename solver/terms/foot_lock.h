@@ -1,6 +1,7 @@
 // foot_lock: a planted node stays where it is through its contact.
-//   r = p - a                                 (m), a the contact's anchor
-// The anchor is an unknown of its own, so a footprint may shift as a whole.
+//   r = (p_x - a_x, p_y - h, p_z - a_z)       (m), a the contact's anchor, h its mean height in the
+// source. The anchor is an unknown of its own, so a footprint may shift as a whole over the floor,
+// but not leave it.
 // 1 frame and the anchor, 1 body. YAML: weights.foot_lock.
 #pragma once
 
@@ -21,6 +22,7 @@ class FootLock : public Term {
  private:
   struct Planted {
     int figure, node, anchor;
+    double height;  // m
   };
   std::vector<std::vector<Planted>> planted_;  // per frame
 };

@@ -29,7 +29,7 @@ std::vector<double> Residuals(const Term& term, const Scene& scene, const Unknow
   return r;
 }
 
-// [rows x (coordinates + 3 anchors)] of the same rows.
+// [rows x (coordinates + 2 anchors)] of the same rows.
 MatX Jacobian(const Term& term, const Scene& scene, const Unknowns& u, int t) {
   Frame frame;
   frame.Set(scene, u, t, true);
@@ -40,7 +40,7 @@ MatX Jacobian(const Term& term, const Scene& scene, const Unknowns& u, int t) {
   const long m = rows.num_rows();
   MatX j = MatX::Zero(m + static_cast<long>(rows.coordinates().size()), n + u.anchor.size());
   j.topLeftCorner(m, n) = rows.jacobian();
-  for (const auto& e : rows.anchors()) j(e.row, n + 3 * e.anchor + e.component) += e.value;
+  for (const auto& e : rows.anchors()) j(e.row, n + 2 * e.anchor + e.component) += e.value;
   for (size_t k = 0; k < rows.coordinates().size(); ++k) {
     j(m + static_cast<long>(k), rows.coordinates()[k].coordinate) = rows.coordinates()[k].derivative;
   }

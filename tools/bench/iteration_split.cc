@@ -1,0 +1,171 @@
+#include "tools/bench/iteration_split.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "solver/banded.h"
+#include "solver/guard.h"
+#include "solver/kernels.h"
+#include "solver/spacetime.h"
+
+namespace retarget {
+namespace {
+
+constexpr int kRepeats = 8;
+
+// Of this thread: whole passes take longer than a time slice, so the wall clock of a busy machine
+// would count others' work even in the best of them.
+double CpuSecondsNow() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Fills frame blocks as solver/banded_stage.cc does, and counts the seconds.
+class TimedAssembly {
+ public:
+  TimedAssembly(const Problem& problem, const Unknowns& x) : problem_(problem), x_(x) {}
+
+  void Fill(int t, FrameBlock* block) {
+    const double started = CpuSecondsNow();
+    frame_.Set(problem_.scene(), x_, t, true);
+    problem_.EvaluateFrame(frame_, 1, true, &rows_);
+    const double evaluated = CpuSecondsNow();
+    FillFrame(t, block);
+    FillAnchors(block);
+    terms_s += evaluated - started;
+    normal_equations_s += CpuSecondsNow() - evaluated;
+    num_rows += rows_.num_rows();
+  }
+
+  double terms_s = 0, normal_equations_s = 0;
+  long num_rows = 0;
+
+ private:
+  void FillFrame(int t, FrameBlock* block) {
+    const int n = problem_.scene().num_coordinates();
+    block->hessian.setZero(n, n);
+    block->gradient.setZero(n);
+    AddNormalEquations(rows_.jacobian().data(), rows_.residual().data(), rows_.num_rows(), n,
+                       block->hessian.data(), block->gradient.data());
+    for (const Rows::CoordinateRow& c : rows_.coordinates()) {
+      block->hessian(c.coordinate, c.coordinate) += c.derivative * c.derivative;
+      block->gradient[c.coordinate] += c.derivative * c.residual;
+    }
+    problem_.smoothness().AddGradient(x_.edit, t, block->gradient);
+  }
+
+  void FillAnchors(FrameBlock* block) {
+    block->anchors.clear();
+    for (const Rows::AnchorEntry& e : rows_.anchors()) {
+      if (block->anchors.empty() || block->anchors.back() != e.anchor) {
+        block->anchors.push_back(e.anchor);
+      }
+    }
+    const long m = kAnchorSize * static_cast<long>(block->anchors.size());
+    block->anchor_coupling.setZero(m, block->gradient.size());
+    block->anchor_diagonal.setZero(m);
+    block->anchor_gradient.setZero(m);
+    for (const Rows::AnchorEntry& e : rows_.anchors()) {
+      const auto at = std::find(block->anchors.begin(), block->anchors.end(), e.anchor);
+      const long row = kAnchorSize * (at - block->anchors.begin()) + e.component;
+      block->anchor_coupling.row(row) += e.value * rows_.jacobian().row(e.row);
+      block->anchor_diagonal[row] += e.value * e.value;
+      block->anchor_gradient[row] += e.value * rows_.residual()[static_cast<size_t>(e.row)];
+    }
+  }
+
+  const Problem& problem_;
+  const Unknowns& x_;
+  Frame frame_;
+  Rows rows_;
+};
+
+BandedSystem SystemOf(const Problem& problem) {
+  std::vector<AnchorSpan> spans;
+  for (const auto& contacts : problem.scene().contacts) {
+    for (const Contact& c : contacts) spans.push_back({c.first, c.last});
+  }
+  return BandedSystem(problem.scene().num_frames(), spans,
+                      problem.smoothness().weight().array().square());
+}
+
+// Least seconds of several runs of `work` by a clock, in ms per frame.
+template <typename Work>
+double LeastMs(int num_frames, double (*now)(), const Work& work) {
+  double least = 1e300;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    const double started = now();
+    work();
+    least = std::min(least, now() - started);
+  }
+  return 1e3 * least / num_frames;
+}
+
+void MeasureLinearSolve(const Problem& problem, const Unknowns& x, IterationSplit* split) {
+  const int n = problem.scene().num_frames();
+  const VecX damping = VecX::Constant(n, problem.settings().solve.initial_damping);
+  BandedSystem system = SystemOf(problem);
+  BandedStep step;
+  const auto solve = [&](int threads) {
+    std::array<TimedAssembly, 2> assembly = {TimedAssembly(problem, x), TimedAssembly(problem, x)};
+    const double started = CpuSecondsNow();
+    const bool solved = system.Solve(
+        [&](int t, int thread, FrameBlock* block) {
+          assembly[static_cast<size_t>(threads > 1 ? thread : 0)].Fill(t, block);
+        },
+        damping, threads, &step);
+    if (!solved) throw InputError("the normal equations are not positive definite");
+    return std::pair(assembly[0], CpuSecondsNow() - started);
+  };
+  const double to_ms = 1e3 / n;
+  split->terms_ms = split->normal_equations_ms = split->factorisation_ms = 1e300;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    const auto [assembly, seconds] = solve(1);
+    const double rest = seconds - assembly.terms_s - assembly.normal_equations_s;
+    split->terms_ms = std::min(split->terms_ms, to_ms * assembly.terms_s);
+    split->normal_equations_ms =
+        std::min(split->normal_equations_ms, to_ms * assembly.normal_equations_s);
+    split->factorisation_ms = std::min(split->factorisation_ms, to_ms * rest);
+    split->rows = static_cast<double>(assembly.num_rows) / n;
+  }
+  split->linear_two_threads_ms = LeastMs(n, SecondsNow, [&] { solve(2); });
+}
+
+// The guard looks at every frame twice: as it was and as it would be.
+void MeasureGuard(const Scene& scene, const Unknowns& x, IterationSplit* split) {
+  constexpr double kReach = 0.25;  // m, as in solver/banded_stage.cc
+  std::vector<NodePositions> nodes;
+  Frame frame;
+  for (int t = 0; t < scene.num_frames(); ++t) {
+    frame.Set(scene, x, t, false);
+    nodes.push_back({frame.posed[0].node, frame.posed[1].node});
+  }
+  double largest = 0;
+  split->guard_ms = LeastMs(scene.num_frames(), CpuSecondsNow, [&] {
+    for (size_t t = 0; t < nodes.size(); ++t) {
+      largest += LargestGliJump(scene.body, nodes[t], nodes[t ? t - 1 : 0], kReach).size;
+    }
+  });
+  if (largest < 0) throw InputError("a GLI jump is negative");  // keeps the loop alive
+}
+
+}  // namespace
+
+IterationSplit MeasureIterationSplit(const Problem& problem, const Unknowns& x) {
+  const int n = problem.scene().num_frames();
+  IterationSplit split;
+  MeasureLinearSolve(problem, x, &split);
+  MeasureGuard(problem.scene(), x, &split);
+  double cost = 0;
+  split.cost_ms = LeastMs(n, CpuSecondsNow, [&] { cost += problem.Cost(x, 1, 1); });
+  if (cost < 0) throw InputError("a cost is negative");  // keeps the loop alive
+  Iteration iteration;
+  split.report_ms = LeastMs(n, CpuSecondsNow, [&] { MeasureIteration(problem, x, 1, &iteration); });
+  return split;
+}
+
+}  // namespace retarget
