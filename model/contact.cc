@@ -6,6 +6,8 @@
 namespace retarget {
 namespace {
 
+constexpr double kTimeSlack = 1e-4;  // s; rates such as 1/0.033333 do not cut a run short
+
 double FifthPercentile(std::vector<double> values) {
   const size_t k = static_cast<size_t>(std::floor(0.05 * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + static_cast<long>(k), values.end());
@@ -44,7 +46,8 @@ std::vector<Contact> DetectContacts(const Body& body, const Clip& clip,
     std::vector<Contact> runs;
     for (int k = 0; k < clip.num_frames(); ++k) {
       if (!planted[k]) continue;
-      const bool joins = !runs.empty() && (k - runs.back().last - 1) / clip.fps < settings.max_gap_s;
+      const int gap = runs.empty() ? 0 : k - runs.back().last - 1;
+      const bool joins = !runs.empty() && (gap == 0 || gap / clip.fps < settings.max_gap_s);
       if (joins) {
         runs.back().last = k;
       } else {
@@ -52,7 +55,8 @@ std::vector<Contact> DetectContacts(const Body& body, const Clip& clip,
       }
     }
     for (const Contact& run : runs) {
-      if ((run.last - run.first + 1) / clip.fps >= settings.min_length_s) contacts.push_back(run);
+      const double length = (run.last - run.first + 1) / clip.fps;
+      if (length >= settings.min_length_s - kTimeSlack) contacts.push_back(run);
     }
   }
   return contacts;

@@ -9,7 +9,7 @@ namespace retarget {
 // Weights of the residual terms: cost = 1/2 sum (weight * residual)^2, residuals in natural units.
 struct Weights {
   double pose_tracking = 1;
-  double root_tracking = 3;
+  double root_tracking = 6;
   double smoothness = 10;
   double root_smoothness = 20;
   double foot_lock = 300;
@@ -23,7 +23,7 @@ struct Weights {
 
 // Shares of weights.pose_tracking and of weights.smoothness, by joint group.
 struct JointWeights {
-  double waist = 1, chest = 1, neck = 0.5, head = 0.5, clavicle = 1, shoulder = 0.7, elbow = 0.7,
+  double waist = 2, chest = 2, neck = 1, head = 1, clavicle = 1, shoulder = 0.7, elbow = 0.7,
          wrist = 0.3, hip = 1, knee = 1, ankle = 0.5, other = 0.3;
 };
 

@@ -58,7 +58,9 @@ Quat TwistAbout(const Quat& q, const Vec3& axis) {
   return Quat(q.w() / n, v.x(), v.y(), v.z());
 }
 
-double YawOf(const Quat& q) { return 2.0 * std::atan2(q.y(), q.w()); }
+double YawOf(const Quat& q) {
+  return std::remainder(2.0 * std::atan2(q.y(), q.w()), 2.0 * kPi);
+}
 
 Quat YawRotation(double yaw) { return Quat(std::cos(0.5 * yaw), 0, std::sin(0.5 * yaw), 0); }
 

@@ -108,8 +108,10 @@ void BandedSystem::AddFrame(int frame, double damping, const FrameBlock& block, 
 bool BandedSystem::Eliminate(size_t own_variables, Front* front, Factor* factor) const {
   const bool all = own_variables == front->variables.size();
   const int own = all ? front->size : front->offset[own_variables];
+  // The far neighbour comes last: what ties it to the frame is the stencil's diagonal alone.
+  const int triangular = all ? 0 : n_;
   if (!PartialCholesky(front->matrix.data(), static_cast<int>(front->matrix.rows()), front->size,
-                       own, front->rhs.data())) {
+                       own, triangular, front->rhs.data())) {
     return false;
   }
   front->eliminated = own_variables;
@@ -153,8 +155,8 @@ void BandedSystem::Run(const Assemble& assemble, const VecX& damping, BandedStep
     std::copy_if(standing.begin(), standing.end(), std::back_inserter(variables), ends_here);
     const size_t own = variables.size();
     variables.push_back(t + chain->direction);
-    variables.push_back(t + 2 * chain->direction);
     std::remove_copy_if(standing.begin(), standing.end(), std::back_inserter(variables), ends_here);
+    variables.push_back(t + 2 * chain->direction);
     Start(variables, &chain->next);
     Inherit(chain->front, &chain->next);
     AddFrame(t, damping[t], chain->block, &chain->next, chain, step);

@@ -1,7 +1,7 @@
 #include "solver/kernels.h"
 
 #define RETARGET_DECLARE_KERNEL(isa)                                                           \
-  extern "C" bool retarget_partial_cholesky_##isa(double*, int, int, int, double*);            \
+  extern "C" bool retarget_partial_cholesky_##isa(double*, int, int, int, int, double*);            \
   extern "C" void retarget_add_normal_equations_##isa(const double*, const double*, int, int,  \
                                                       double*, double*);
 RETARGET_DECLARE_KERNEL(portable)
@@ -13,7 +13,7 @@ namespace {
 
 struct Kernels {
   const char* name;
-  bool (*partial_cholesky)(double*, int, int, int, double*);
+  bool (*partial_cholesky)(double*, int, int, int, int, double*);
   void (*add_normal_equations)(const double*, const double*, int, int, double*, double*);
 };
 
@@ -37,8 +37,8 @@ const Kernels& Chosen() {
 
 }  // namespace
 
-bool PartialCholesky(double* a, int stride, int size, int own, double* b) {
-  return Chosen().partial_cholesky(a, stride, size, own, b);
+bool PartialCholesky(double* a, int stride, int size, int own, int triangular, double* b) {
+  return Chosen().partial_cholesky(a, stride, size, own, triangular, b);
 }
 
 void AddNormalEquations(const double* jacobian, const double* residual, int rows, int n, double* h,

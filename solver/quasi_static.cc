@@ -158,7 +158,7 @@ class Pass {
     factor_.diagonal() += damping * hessian_.diagonal();
     factor_.diagonal().array() += 1e-12;
     VecX step = -gradient_;
-    PartialCholesky(factor_.data(), n, n, n, step.data());
+    PartialCholesky(factor_.data(), n, n, n, 0, step.data());
     factor_.triangularView<Eigen::Lower>().transpose().solveInPlace(step);
     return step;
   }

@@ -84,13 +84,13 @@ TEST(SettingsFileTest, EmptyTextIsTheDefaults) {
 TEST(SettingsFileTest, KeysOverrideDefaults) {
   const Settings settings = ParseSettings(
       "weights: {tangle: 30.5, hold: +4}\nsolve:\n  backend: ceres\n  threads: 3\n"
-      "  stages: 0.1 1\nrequirements:\n  penetration_m: 1e-3\n",
+      "  stages: 0.2 1\nrequirements:\n  penetration_m: 1e-3\n",
       "s.yaml");
   EXPECT_EQ(settings.weights.tangle, 30.5);
   EXPECT_EQ(settings.weights.hold, 4);
   EXPECT_EQ(settings.solve.backend, "ceres");
   EXPECT_EQ(settings.solve.threads, 3);
-  EXPECT_EQ(settings.solve.stages, "0.1 1");
+  EXPECT_EQ(settings.solve.stages, "0.2 1");
   EXPECT_EQ(settings.requirements.penetration_m, 1e-3);
   EXPECT_EQ(settings.weights.ground, Settings().weights.ground);
 }
@@ -119,7 +119,7 @@ TEST(SettingsFileTest, FormatExplainsEveryKey) {
   EXPECT_NE(text.find("  backend: banded  # default banded: linear algebra of the clip's solve "
                       "(banded|ceres)\n"),
             std::string::npos);
-  EXPECT_NE(text.find("  stages: \"0.1 1\"  # default 0.03 0.1 0.3 1: "),
+  EXPECT_NE(text.find("  stages: \"0.1 1\"  # default 0.1 1: "),
             std::string::npos);
 }
 
@@ -190,11 +190,11 @@ TEST(SettingsFileTest, SetByNameSetsOneKey) {
   Settings settings;
   SetByName(&settings, "weights.tangle=30");
   SetByName(&settings, " solve.backend = ceres ");
-  SetByName(&settings, "solve.stages=0.1 1");
+  SetByName(&settings, "solve.stages=0.2 1");
   SetByName(&settings, "tangle.max_tags=7");
   EXPECT_EQ(settings.weights.tangle, 30);
   EXPECT_EQ(settings.solve.backend, "ceres");
-  EXPECT_EQ(settings.solve.stages, "0.1 1");
+  EXPECT_EQ(settings.solve.stages, "0.2 1");
   EXPECT_EQ(settings.tangle.max_tags, 7);
   EXPECT_EQ(settings.weights.hold, Settings().weights.hold);
 }

@@ -34,7 +34,8 @@ double OracleDistance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 }
 
 // Checks distance, ranges, points and normal; returns what was found.
-ClosestPoints Checked(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double tolerance) {
+ClosestPoints Checked(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
+                      double tolerance) {
   const ClosestPoints got = ClosestPointsOfSegments(a, b, c, d);
   EXPECT_NEAR(got.distance, OracleDistance(a, b, c, d), tolerance);
   EXPECT_GE(got.s, 0);
@@ -100,7 +101,8 @@ TEST_F(Capsule, ParallelAndNearlyParallelSegments) {
   // Side by side, one beyond the other, and in one line.
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY();
   EXPECT_NEAR(ClosestPointsOfSegments(0 * x, 2 * x, x + y, 3 * x + y).distance, 1, 1e-15);
-  EXPECT_NEAR(ClosestPointsOfSegments(0 * x, x, 3 * x + y, 2 * x + y).distance, std::sqrt(2), 1e-15);
+  EXPECT_NEAR(ClosestPointsOfSegments(0 * x, x, 3 * x + y, 2 * x + y).distance, std::sqrt(2),
+              1e-15);
   EXPECT_NEAR(ClosestPointsOfSegments(0 * x, x, 3 * x, 5 * x).distance, 2, 1e-15);
   EXPECT_NEAR(ClosestPointsOfSegments(0 * x, 2 * x, x, 5 * x).distance, 0, 1e-15);
 }
@@ -127,8 +129,8 @@ TEST_F(Capsule, CrossingSegmentsHaveANormalAcrossBoth) {
     EXPECT_NEAR(got.t, 1.0 / 3, 1e-9);
     EXPECT_NEAR(got.normal.norm(), 1, 1e-12);
   }
-  const ClosestPoints meet = ClosestPointsOfSegments(-Vec3::UnitX(), Vec3::UnitX(),
-                                                     -Vec3::UnitY(), Vec3::UnitY());
+  const ClosestPoints meet =
+      ClosestPointsOfSegments(-Vec3::UnitX(), Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitY());
   EXPECT_NEAR(std::abs(meet.normal.z()), 1, 1e-15);
 }
 

@@ -1,5 +1,5 @@
-// Contact detection on made-up feet whose contacts are known by hand: the whole body is slid, so the
-// supporting node goes exactly where the test says.
+// Contact detection on made-up feet whose contacts are known by hand: the whole body is slid, so
+// the supporting node goes exactly where the test says.
 #include "model/contact.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,8 @@ constexpr double kStepM = 0.05;  // per frame: far above the speed limit, even w
 
 class ContactTest : public testing::Test {
  protected:
-  ContactTest() : body_(StandardBody(AverageMeasures(1.75))), ankle_(body_.FindNode("left_ankle")) {}
+  ContactTest()
+      : body_(StandardBody(AverageMeasures(1.75))), ankle_(body_.FindNode("left_ankle")) {}
 
   // One letter per frame interval: '.' stays, 'x' goes forward by kStepM.
   Clip Sliding(const std::string& intervals, double fps = 30) const {
@@ -87,8 +88,8 @@ TEST_F(ContactTest, GapsShorterThanATenthOfASecondAreClosed) {
 TEST_F(ContactTest, ThenRunsShorterThanAFifthOfASecondAreDropped) {
   // A run of k still frames has k + 1 still intervals between moving ones.
   const std::string walk = Repeat('x', 10);
-  EXPECT_EQ(Detect(Sliding(walk + Repeat('.', 6) + walk)), "");        // 5 frames, 167 ms
-  EXPECT_EQ(Detect(Sliding(walk + Repeat('.', 7) + walk)), "11-16");   // 6 frames, 200 ms
+  EXPECT_EQ(Detect(Sliding(walk + Repeat('.', 6) + walk)), "");       // 5 frames, 167 ms
+  EXPECT_EQ(Detect(Sliding(walk + Repeat('.', 7) + walk)), "11-16");  // 6 frames, 200 ms
 }
 
 TEST_F(ContactTest, GapsAreClosedBeforeShortRunsAreDropped) {

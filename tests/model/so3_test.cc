@@ -43,7 +43,7 @@ class Random {
 };
 
 // Angles (rad) at which a formula may change its form, and what lies between.
-const std::vector<double> kAngles = {0,    1e-12, 1e-9, 0.9e-8, 1.1e-8,     1e-6,       0.9e-4,
+const std::vector<double> kAngles = {0,      1e-12, 1e-9, 0.9e-8, 1.1e-8,     1e-6,      0.9e-4,
                                      1.1e-4, 1e-2,  0.5,  1.5,    kPi - 1e-3, kPi - 1e-6};
 
 TEST(So3, ExpIsTheSeriesOfTheMatrixExponential) {
@@ -119,7 +119,8 @@ TEST(So3, RightJacobianInverseIsTheDerivativeOfTheLogarithmAndTheInverse) {
       for (int c = 0; c < 3; ++c) {
         const Vec3 d = h * Vec3::Unit(c);
         const Vec3 column = (LogSo3(Quat(Mat3(SeriesExp(v) * SeriesExp(d)))) -
-                             LogSo3(Quat(Mat3(SeriesExp(v) * SeriesExp(-d))))) / (2 * h);
+                             LogSo3(Quat(Mat3(SeriesExp(v) * SeriesExp(-d))))) /
+                            (2 * h);
         EXPECT_LT((column - inverse.col(c)).norm(), 1e-8) << angle;
       }
     }

@@ -156,7 +156,8 @@ TEST(Gli, ASegmentThatPassesThroughAnotherJumpsByOne) {
     // The gradient is the same on both sides, as the far ends see no difference.
     const auto gradient = [&](double g) {
       const Vec3 shift = g * n;
-      return SegmentGliWithGradient(-s * u + shift, (1 - s) * u + shift, -t * v, (1 - t) * v).gradient;
+      return SegmentGliWithGradient(-s * u + shift, (1 - s) * u + shift, -t * v, (1 - t) * v)
+          .gradient;
     };
     const auto above = gradient(1e-7), below = gradient(-1e-7);
     for (int k = 0; k < 4; ++k) {
@@ -279,8 +280,8 @@ TEST(Tangles, PathPairsAreThePolylinesOfTheirNodes) {
       EXPECT_LT(t.b.from, t.b.to);
       EXPECT_GT(std::abs(t.gli), 0.5);
       EXPECT_NEAR(t.gli, PolylineGli(scene.PointsA(t.a), scene.PointsB(t.b)), 1e-11);
-      const double by_signs = SignsOf(body, t.a).cast<double>().dot(
-          table * SignsOf(body, t.b).cast<double>());
+      const double by_signs =
+          SignsOf(body, t.a).cast<double>().dot(table * SignsOf(body, t.b).cast<double>());
       EXPECT_NEAR(t.gli, by_signs, 1e-11);
       ++checked;
     }
@@ -316,8 +317,7 @@ TEST(Tangles, FastSearchFindsWhatBruteForceOverPolylinesDoes) {
       for (int v = u + 1; v < 13; ++v) {
         for (int x = 0; x < 13; ++x) {
           for (int y = x + 1; y < 13; ++y) {
-            gli[{u, v, x, y}] =
-                std::abs(PolylineGli(scene.PointsA({u, v}), scene.PointsB({x, y})));
+            gli[{u, v, x, y}] = std::abs(PolylineGli(scene.PointsA({u, v}), scene.PointsB({x, y})));
           }
         }
       }
@@ -394,13 +394,25 @@ TEST(Tangles, ATightRingRoundATrunkIsFoundAndDistantBodiesHaveNone) {
   node("left_hand") = Vec3(0.05, y, 0.3), node("right_hand") = Vec3(-0.05, y, 0.3);
   const MatX table = SegmentGliTable(body, a, body, rest.node);
   const std::vector<Tangle> literal = FindTangles(body, body, table);
-  EXPECT_FALSE(literal.empty());
+  // A circle of radius r round a straight line that ends h below and g above it has
+  // (h / sqrt(h^2 + r^2) + g / sqrt(g^2 + r^2)) / 2; from the left hand over the back to the right
+  // hand, against a line that goes up, the sign of Eq. 1 is positive.
+  const double r = 0.3, h = y, g = rest.node[4].y() - y;
+  const double circle = (h / std::hypot(h, r) + g / std::hypot(g, r)) / 2;
+  const Path arms{body.FindNode("left_hand"), body.FindNode("right_hand")}, spine{0, 4};
+  Polyline ring, line;
+  for (const int n : NodesOn(body, arms)) ring.push_back(a[n]);
+  for (const int n : NodesOn(body, spine)) line.push_back(rest.node[n]);
+  EXPECT_NEAR(PolylineGli(ring, line), circle, 0.1);
   double largest = 0;
   for (const Tangle& t : literal) {
-    EXPECT_EQ(t.gli > 0, literal[0].gli > 0);
+    if (std::abs(t.gli) < circle) continue;
+    const double rise = rest.node[t.b.to].y() - rest.node[t.b.from].y();
+    EXPECT_GT(t.gli * rise, 0);
+    EXPECT_GE(NodesOn(body, t.a).size(), 7u);  // from elbow to hand at least
     largest = std::max(largest, std::abs(t.gli));
   }
-  EXPECT_GT(largest, 0.75);
+  EXPECT_GT(largest, circle);
   EXPECT_LT(largest, 1);
 }
 
@@ -408,9 +420,7 @@ TEST(Tangles, ATightRingRoundATrunkIsFoundAndDistantBodiesHaveNone) {
 // and a turn of every link.
 double NumericNorm(Tangled scene, const Tangle& tangle) {
   const double h = 1e-6;
-  const auto gli = [&] {
-    return PolylineGli(scene.PointsA(tangle.a), scene.PointsB(tangle.b));
-  };
+  const auto gli = [&] { return PolylineGli(scene.PointsA(tangle.a), scene.PointsB(tangle.b)); };
   double sum = 0;
   for (Pose* pose : {&scene.pose_a, &scene.pose_b}) {
     for (int c = 0; c < 3; ++c) {

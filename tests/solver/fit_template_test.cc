@@ -21,9 +21,8 @@ double DeepestBetween(const TemplatePosture& posture) {
   for (int i = 1; i < posture.body[0].num_nodes(); ++i) {
     for (int j = 1; j < posture.body[1].num_nodes(); ++j) {
       const Node &a = posture.body[0].nodes[i], &b = posture.body[1].nodes[j];
-      const ClosestPoints closest =
-          ClosestPointsOfSegments(posed[0].node[a.parent], posed[0].node[i],
-                                  posed[1].node[b.parent], posed[1].node[j]);
+      const ClosestPoints closest = ClosestPointsOfSegments(
+          posed[0].node[a.parent], posed[0].node[i], posed[1].node[b.parent], posed[1].node[j]);
       deepest = std::max(deepest, a.radius + b.radius - closest.distance);
     }
   }
@@ -35,7 +34,8 @@ double HoldError(const TemplatePosture& posture) {
   double largest = 0;
   for (const Hold& hold : posture.holds) {
     largest = std::max(largest, (HoldPosition(hold.from, posture.body, posed) -
-                                 HoldPosition(hold.to, posture.body, posed)).norm());
+                                 HoldPosition(hold.to, posture.body, posed))
+                                    .norm());
   }
   return largest;
 }
@@ -59,8 +59,8 @@ Hold HoldAsPosed(const TemplatePosture& posture, int figure_from, const char* fr
   hold.from = {figure_from, posture.body[figure_from].FindNode(from), Vec3::Zero()};
   hold.to = {figure_to, posture.body[figure_to].FindNode(to), Vec3::Zero()};
   const Mat3& frame = posed[figure_to].rotation[posture.body[figure_to].nodes[hold.to.node].link];
-  hold.to.offset = frame.transpose() * (posed[figure_from].node[hold.from.node] -
-                                        posed[figure_to].node[hold.to.node]);
+  hold.to.offset = frame.transpose() *
+                   (posed[figure_from].node[hold.from.node] - posed[figure_to].node[hold.to.node]);
   return hold;
 }
 
@@ -77,6 +77,7 @@ TEST(FitTemplate, ToTheSameBodiesChangesNothingWhereNothingIsViolated) {
   for (Body& body : posture.body) {
     for (Node& node : body.nodes) node.radius *= 0.01;  // thin enough not to touch
   }
+  for (Pose& pose : posture.pose) pose.root_position.y() += 0.3;  // clear of the floor
   ASSERT_LT(DeepestBetween(posture), 0);
   const TemplateTangles tangles = FindTemplateTangles(posture, {});
   ASSERT_FALSE(tangles.tags.empty());
@@ -93,7 +94,8 @@ TEST(FitTemplate, ToTheSameBodiesChangesNothingWhereNothingIsViolated) {
 
 TEST(FitTemplate, OnBodiesKeepsRotationsAndScalesHeightsAndOffsets) {
   const TemplatePosture posture = HeldHug();
-  const std::array<Body, 2> body = {ScaledTo(posture.body[0], 0.9), ScaledTo(posture.body[1], 0.85)};
+  const std::array<Body, 2> body = {ScaledTo(posture.body[0], 0.9),
+                                    ScaledTo(posture.body[1], 0.85)};
   const TemplatePosture laid = OnBodies(posture, body);  // both at half the stature
   for (int f = 0; f < 2; ++f) {
     EXPECT_NEAR(laid.pose[f].root_position.y(), 0.5 * posture.pose[f].root_position.y(), 1e-14);
@@ -105,7 +107,8 @@ TEST(FitTemplate, OnBodiesKeepsRotationsAndScalesHeightsAndOffsets) {
   const Vec3 after = laid.pose[1].root_position - laid.pose[0].root_position;
   EXPECT_LT((after - 0.5 * before).norm(), 1e-14);
   EXPECT_LT((laid.holds[0].to.offset - 0.5 * posture.holds[0].to.offset).norm(), 1e-14);
-  // A picture at half the size: everything that was together still is, and all tangles are the same.
+  // A picture at half the size: everything that was together still is, and all tangles are the
+  // same.
   EXPECT_LT(HoldError(laid), 1e-14);
   const TemplateTangles one = FindTemplateTangles(posture, {}), two = FindTemplateTangles(laid, {});
   ASSERT_EQ(one.literal.size(), two.literal.size());

@@ -1,5 +1,6 @@
-// A body with fingers and toes is a longer table and nothing else (Ho and Komura 2007, section 4.2):
-// tangles, terms, both back ends, the template fit and the metrics take it as it comes.
+// A body with fingers and toes is a longer table and nothing else (Ho and Komura 2007,
+// section 4.2): tangles, terms, both back ends, the template fit and the metrics take it as it
+// comes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,22 +32,24 @@ int AddNode(Body* body, const std::string& name, int parent, int link, const Vec
 void AddFinger(Body* body, const std::string& name, const std::string& side, const Vec3& knuckle,
                const Vec3& along) {
   const int hand = body->FindLink(side + "_wrist");
-  const int base = AddNode(body, name + "_0", body->FindNode(side + "_wrist"), hand, knuckle, 0.009);
+  const int base =
+      AddNode(body, name + "_0", body->FindNode(side + "_wrist"), hand, knuckle, 0.009);
   const int first = AddLink(body, name + "_1", hand, knuckle);
   const int middle = AddNode(body, name + "_1", base, first, along, 0.008);
   const int second = AddLink(body, name + "_2", first, along);
   AddNode(body, name + "_2", middle, second, 0.7 * along, 0.008);
 }
 
-// The standard body with a thumb and `fingers` fingers of two joints on each hand, and two toe joints
-// on each foot.
+// The standard body with a thumb and `fingers` fingers of two joints on each hand, and two toe
+// joints on each foot.
 Body GrownBody(double stature, int fingers) {
   Body body = StandardBody(AverageMeasures(stature));
   const double k = stature / 1.75;
   const char* names[] = {"index", "middle", "ring", "little"};
   for (const double x : {1.0, -1.0}) {
     const std::string side = x > 0 ? "left" : "right";
-    AddFinger(&body, side + "_thumb", side, k * Vec3(0.03 * x, 0, 0.03), k * Vec3(0.03 * x, 0, 0.03));
+    AddFinger(&body, side + "_thumb", side, k * Vec3(0.03 * x, 0, 0.03),
+              k * Vec3(0.03 * x, 0, 0.03));
     for (int i = 0; i < fingers; ++i) {
       AddFinger(&body, side + "_" + names[i], side, k * Vec3(0.09 * x, 0, 0.03 - 0.02 * i),
                 k * Vec3(0.04 * x, 0, 0));
@@ -116,7 +119,8 @@ TEST(GrownBody, HasTheLongerTable) {
   const Body small = ScaledTo(body, 0.875);
   for (int n = 1; n < body.num_nodes(); ++n) {
     EXPECT_LT(body.nodes[n].parent, n);
-    EXPECT_NEAR((rest.node[n] - rest.node[body.nodes[n].parent]).norm(), body.SegmentLength(n), 1e-14);
+    EXPECT_NEAR((rest.node[n] - rest.node[body.nodes[n].parent]).norm(), body.SegmentLength(n),
+                1e-14);
     EXPECT_NEAR(small.SegmentLength(n), 0.5 * body.SegmentLength(n), 1e-14);
   }
   EXPECT_NEAR(rest.node[body.FindNode("left_index_2")].x(),
@@ -128,8 +132,8 @@ TEST(GrownBody, TanglesAreThoseOfTheDefinition) {
   for (const int fingers : {1, 4}) {
     const Body a = GrownBody(1.80, fingers), b = GrownBody(1.65, fingers);
     const TemplatePosture posture = GrownHug(a, b);
-    const MatX table = SegmentGliTable(a, PoseBody(a, posture.pose[0]).node, b,
-                                       PoseBody(b, posture.pose[1]).node);
+    const MatX table =
+        SegmentGliTable(a, PoseBody(a, posture.pose[0]).node, b, PoseBody(b, posture.pose[1]).node);
     ASSERT_EQ(table.rows(), a.num_nodes() - 1);
     const auto fast = Sorted(FindTangles(a, b, table));
     EXPECT_EQ(fast, Sorted(FindTanglesByDefinition(a, b, table)));
@@ -165,7 +169,7 @@ TEST(GrownBody, BothBackEndsSolveIt) {
   ASSERT_FALSE(scene.tangles.empty());
   EXPECT_EQ(scene.num_coordinates(), 264);
   Settings settings;
-  settings.solve.threads = 2;
+  settings.solve.threads = 1;
   settings.solve.max_iterations = 300;
   settings.solve.relative_decrease = 3e-3;
   settings.solve.polish_decrease = 1e-4;
@@ -204,16 +208,16 @@ TEST(GrownBody, TheTemplateFitsAndAStartIsFound) {
   const MatX table = SegmentGliTable(body[0], PoseBody(body[0], fitted.pose[0]).node, body[1],
                                      PoseBody(body[1], fitted.pose[1]).node);
   for (const Tag& tag : tangles.tags) {
-    const double gli = SignsOf(body[0], tag.tangle.a).cast<double>().dot(
-        table * SignsOf(body[1], tag.tangle.b).cast<double>());
+    const double gli = SignsOf(body[0], tag.tangle.a)
+                           .cast<double>()
+                           .dot(table * SignsOf(body[1], tag.tangle.b).cast<double>());
     EXPECT_GT(tag.tangle.gli < 0 ? -gli : gli, 0.5);
   }
   const Problem problem(scene, {});
   const Unknowns start = StartOf(problem);
   EXPECT_EQ(start.edit.rows(), scene.num_coordinates());
   EXPECT_EQ(start.edit.cols(), 3);
-  EXPECT_LT(problem.Cost(start, 1, 1),
-            problem.Cost(UnknownsFromPoses(scene, scene.source), 1, 1));
+  EXPECT_LT(problem.Cost(start, 1, 1), problem.Cost(UnknownsFromPoses(scene, scene.source), 1, 1));
 }
 
 }  // namespace

@@ -37,10 +37,12 @@ class PlacementTest : public testing::Test {
     const double ankle = std::max(foot, body_.nodes[body_.FindNode("left_ankle")].radius);
     double lowest = 1e9;
     for (int t = 2; t <= 9; ++t) {
-      lowest = std::min(lowest, PoseBody(body_, clip.frames[t]).node[body_.FindNode("left_ankle")].y() - ankle);
+      lowest = std::min(
+          lowest, PoseBody(body_, clip.frames[t]).node[body_.FindNode("left_ankle")].y() - ankle);
     }
     for (int t = 5; t <= 17; ++t) {
-      lowest = std::min(lowest, PoseBody(body_, clip.frames[t]).node[body_.FindNode("right_toe")].y() - foot);
+      lowest = std::min(
+          lowest, PoseBody(body_, clip.frames[t]).node[body_.FindNode("right_toe")].y() - foot);
     }
     return lowest;
   }
@@ -60,7 +62,8 @@ TEST_F(PlacementTest, TurnsAndShiftsAllFramesAlike) {
   ASSERT_EQ(placed.num_frames(), clip_.num_frames());
   EXPECT_EQ(placed.fps, clip_.fps);
   for (int t = 0; t < placed.num_frames(); ++t) {
-    const PosedBody before = PoseBody(body_, clip_.frames[t]), after = PoseBody(body_, placed.frames[t]);
+    const PosedBody before = PoseBody(body_, clip_.frames[t]),
+                    after = PoseBody(body_, placed.frames[t]);
     for (int n = 0; n < body_.num_nodes(); ++n) {
       const Vec3& p = before.node[n];
       EXPECT_LT((after.node[n] - Vec3(p.z() + 1, p.y() + 2, -p.x() + 3)).norm(), 1e-13);
@@ -76,7 +79,8 @@ TEST_F(PlacementTest, BringsTheFrameToTheTargetsHeadingAndPlaceOnTheFloor) {
   for (const int frame : {0, 7, 19}) {
     const Placement placement = PlaceAt(body_, clip_, frame, target_, contacts_);
     const Clip placed = Placed(clip_, placement);
-    EXPECT_NEAR(std::remainder(Heading(placed.frames[frame]) - Heading(target_), 2 * kPi), 0, 1e-12);
+    EXPECT_NEAR(std::remainder(Heading(placed.frames[frame]) - Heading(target_), 2 * kPi), 0,
+                1e-12);
     EXPECT_NEAR(std::remainder(placement.yaw - (-200 * kDegree), 2 * kPi), 0, 1e-12);
     const Vec3 miss = placed.frames[frame].root_position - target_.root_position;
     EXPECT_NEAR(miss.x(), 0, 1e-12);

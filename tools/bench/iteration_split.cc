@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+#include <tuple>
 #include <vector>
 
 #include "solver/banded.h"
@@ -107,7 +109,7 @@ double LeastMs(int num_frames, double (*now)(), const Work& work) {
 
 void MeasureLinearSolve(const Problem& problem, const Unknowns& x, IterationSplit* split) {
   const int n = problem.scene().num_frames();
-  const VecX damping = VecX::Constant(n, problem.settings().solve.initial_damping);
+  VecX damping = VecX::Constant(n, problem.settings().solve.initial_damping);
   BandedSystem system = SystemOf(problem);
   BandedStep step;
   const auto solve = [&](int threads) {
@@ -118,13 +120,19 @@ void MeasureLinearSolve(const Problem& problem, const Unknowns& x, IterationSpli
           assembly[static_cast<size_t>(threads > 1 ? thread : 0)].Fill(t, block);
         },
         damping, threads, &step);
-    if (!solved) throw InputError("the normal equations are not positive definite");
-    return std::pair(assembly[0], CpuSecondsNow() - started);
+    return std::tuple(solved, assembly[0], CpuSecondsNow() - started);
   };
+  // As the solver does; how long a solve takes does not depend on it.
+  while (!std::get<0>(solve(1))) {
+    damping *= 5;
+    if (damping[0] > 1e5)
+      throw std::runtime_error("the normal equations are not positive definite");
+  }
   const double to_ms = 1e3 / n;
   split->terms_ms = split->normal_equations_ms = split->factorisation_ms = 1e300;
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
-    const auto [assembly, seconds] = solve(1);
+    const auto [solved, assembly, seconds] = solve(1);
+    if (!solved) throw std::logic_error("the same system was solved before");
     const double rest = seconds - assembly.terms_s - assembly.normal_equations_s;
     split->terms_ms = std::min(split->terms_ms, to_ms * assembly.terms_s);
     split->normal_equations_ms =
@@ -150,7 +158,7 @@ void MeasureGuard(const Scene& scene, const Unknowns& x, IterationSplit* split) 
       largest += LargestGliJump(scene.body, nodes[t], nodes[t ? t - 1 : 0], kReach).size;
     }
   });
-  if (largest < 0) throw InputError("a GLI jump is negative");  // keeps the loop alive
+  if (largest < 0) throw std::logic_error("a GLI jump is negative");  // keeps the loop alive
 }
 
 }  // namespace
@@ -162,7 +170,7 @@ IterationSplit MeasureIterationSplit(const Problem& problem, const Unknowns& x) 
   MeasureGuard(problem.scene(), x, &split);
   double cost = 0;
   split.cost_ms = LeastMs(n, CpuSecondsNow, [&] { cost += problem.Cost(x, 1, 1); });
-  if (cost < 0) throw InputError("a cost is negative");  // keeps the loop alive
+  if (cost < 0) throw std::logic_error("a cost is negative");  // keeps the loop alive
   Iteration iteration;
   split.report_ms = LeastMs(n, CpuSecondsNow, [&] { MeasureIteration(problem, x, 1, &iteration); });
   return split;
