@@ -8,7 +8,7 @@
 namespace retarget {
 namespace {
 
-constexpr double kSpineSlack = 0.003;  // m of distance not worth bending a spine for
+constexpr double kSpineSlack = 0.0015;  // m of distance not worth bending a spine for
 constexpr int kMostSamples = 300;  // frames looked at for lengths and the reference
 
 // Links of the standard body, in its order (model/body.cc).

@@ -64,30 +64,46 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
   iteration->hold_error_m = *std::max_element(hold.begin(), hold.end());
 }
 
-SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const Progress& progress) {
+namespace {
+
+// Solves the stages one after the other, each warm started, from result->unknowns.
+void SolveStages(const Problem& problem, const std::vector<double>& stages, double started,
+                 const Progress& progress, SolveResult* result) {
   const SolveSettings& settings = problem.settings().solve;
-  const bool banded = settings.backend == "banded";
-  const std::vector<double> stages = ParseStages(settings.stages);
-  SolveResult result;
-  result.unknowns = start;
-  result.backend = settings.backend;
-  const double started = SecondsNow();
-  const int threads = NumThreads(settings.threads);
-  result.initial_cost = problem.Cost(start, 1, threads);
   for (size_t s = 0; s < stages.size(); ++s) {
     const bool last = s + 1 == stages.size();
-    StageContext context{&problem,
-                         stages[s],
-                         last ? settings.polish_decrease : settings.relative_decrease,
-                         settings.max_iterations - result.iterations,
-                         settings.max_seconds,
-                         static_cast<int>(s),
-                         started,
-                         &progress};
-    result.status = banded ? SolveStageBanded(context, &result) : SolveStageCeres(context, &result);
-    if (result.status != SolveStatus::kConverged) break;
+    const StageContext context{&problem,
+                               stages[s],
+                               last ? settings.polish_decrease : settings.relative_decrease,
+                               settings.max_iterations - result->iterations,
+                               settings.max_seconds,
+                               static_cast<int>(s),
+                               started,
+                               &progress};
+    result->status = settings.backend == "banded" ? SolveStageBanded(context, result)
+                                                  : SolveStageCeres(context, result);
+    if (result->status != SolveStatus::kConverged) return;
   }
+}
+
+}  // namespace
+
+SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const Progress& progress) {
+  const std::vector<double> stages = ParseStages(problem.settings().solve.stages);
+  const int threads = NumThreads(problem.settings().solve.threads);
+  const double started = SecondsNow();
+  SolveResult result;
+  result.unknowns = start;
+  result.backend = problem.settings().solve.backend;
+  result.initial_cost = problem.Cost(start, 1, threads);
+  SolveStages(problem, stages, started, progress, &result);
   result.cost = problem.Cost(result.unknowns, 1, threads);
+  // Weak contacts may lead away from a start that was better already: then full contacts from there.
+  if (result.cost > result.initial_cost && result.status == SolveStatus::kConverged) {
+    result.unknowns = start;
+    SolveStages(problem, {1}, started, progress, &result);
+    result.cost = problem.Cost(result.unknowns, 1, threads);
+  }
   result.seconds = SecondsNow() - started;
   return result;
 }

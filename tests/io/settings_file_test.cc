@@ -115,7 +115,7 @@ TEST(SettingsFileTest, FormatExplainsEveryKey) {
                       "captured\n"),
             std::string::npos);
   EXPECT_NE(text.find("  tangle: 0.1  # default 20, 1/turn: "), std::string::npos);
-  EXPECT_NE(text.find("  waist: 1  # default 1: share of"), std::string::npos);
+  EXPECT_NE(text.find("  waist: 2  # default 2: share of"), std::string::npos);
   EXPECT_NE(text.find("  backend: banded  # default banded: linear algebra of the clip's solve "
                       "(banded|ceres)\n"),
             std::string::npos);
