@@ -8,8 +8,8 @@ namespace retarget {
 namespace {
 
 // Segment radii (m) and mass shares for a stature of 1.756 m. Radii: circumferences of US Army men,
-// mean of the two ends of a segment over 2 pi, trunk from half the chest and waist depth; rounded to
-// 5 mm (Gordon et al., "2012 Anthropometric Survey of U.S. Army Personnel", 2014). Mass shares:
+// mean of the two ends of a segment over 2 pi, trunk from half the chest and waist depth; rounded
+// to 5 mm (Gordon et al., "2012 Anthropometric Survey of U.S. Army Personnel", 2014). Mass shares:
 // Dempster 1955 as printed in Winter 2009, Table 4.1; the trunk is split as there between abdomen
 // with pelvis and thorax, and the root-hip and neck-shoulder segments take a part of each.
 struct SegmentTable {
@@ -19,16 +19,16 @@ struct SegmentTable {
 };
 constexpr double kTableStature = 1.756;
 constexpr SegmentTable kSegments[] = {
-    {"chest", 0.120, 0.139},         {"neck", 0.130, 0.186},
-    {"head", 0.055, 0.020},          {"head_top", 0.085, 0.061},
-    {"left_shoulder", 0.055, 0.015}, {"left_elbow", 0.050, 0.028},
-    {"left_wrist", 0.040, 0.016},    {"left_hand", 0.030, 0.006},
+    {"chest", 0.120, 0.139},          {"neck", 0.130, 0.186},
+    {"head", 0.055, 0.020},           {"head_top", 0.085, 0.061},
+    {"left_shoulder", 0.055, 0.015},  {"left_elbow", 0.050, 0.028},
+    {"left_wrist", 0.040, 0.016},     {"left_hand", 0.030, 0.006},
     {"right_shoulder", 0.055, 0.015}, {"right_elbow", 0.050, 0.028},
-    {"right_wrist", 0.040, 0.016},   {"right_hand", 0.030, 0.006},
-    {"left_hip", 0.100, 0.071},      {"left_knee", 0.080, 0.100},
-    {"left_ankle", 0.050, 0.0465},   {"left_toe", 0.040, 0.0145},
-    {"right_hip", 0.100, 0.071},     {"right_knee", 0.080, 0.100},
-    {"right_ankle", 0.050, 0.0465},  {"right_toe", 0.040, 0.0145},
+    {"right_wrist", 0.040, 0.016},    {"right_hand", 0.030, 0.006},
+    {"left_hip", 0.100, 0.071},       {"left_knee", 0.080, 0.100},
+    {"left_ankle", 0.050, 0.0465},    {"left_toe", 0.040, 0.0145},
+    {"right_hip", 0.100, 0.071},      {"right_knee", 0.080, 0.100},
+    {"right_ankle", 0.050, 0.0465},   {"right_toe", 0.040, 0.0145},
 };
 // Mass of a man of kTableStature at a body mass index of 23 kg/m^2.
 constexpr double kTableMass = 23.0 * kTableStature * kTableStature;
@@ -59,7 +59,8 @@ struct BodyBuilder {
 void AddArmLinks(const std::string& side, double x, const BodyMeasures::Side& m, int chest,
                  BodyBuilder* b) {
   const int clavicle = b->AddLink(side + "_clavicle", chest, m.clavicle);
-  const int shoulder = b->AddLink(side + "_shoulder", clavicle, Vec3(x * m.clavicle_shoulder, 0, 0));
+  const int shoulder =
+      b->AddLink(side + "_shoulder", clavicle, Vec3(x * m.clavicle_shoulder, 0, 0));
   const int elbow = b->AddLink(side + "_elbow", shoulder, Vec3(x * m.shoulder_elbow, 0, 0));
   b->AddLink(side + "_wrist", elbow, Vec3(x * m.elbow_wrist, 0, 0));
 }

@@ -37,20 +37,20 @@ struct JointLimit {
 };
 
 struct Link {
-  std::string name;      // "root", "waist", "left_elbow", ...
-  int parent = -1;       // link, always before this one; -1 for the root
+  std::string name;            // "root", "waist", "left_elbow", ...
+  int parent = -1;             // link, always before this one; -1 for the root
   Vec3 centre = Vec3::Zero();  // joint centre in the parent's frame (m)
   JointLimit limit;
-  bool locked = false;   // the rig has no joint here: it keeps its captured rotation
+  bool locked = false;  // the rig has no joint here: it keeps its captured rotation
 };
 
 struct Node {
-  std::string name;    // "left_wrist", ...
-  int parent = -1;     // node, always before this one; -1 for the root node
-  int link = 0;        // the link that carries it
+  std::string name;            // "left_wrist", ...
+  int parent = -1;             // node, always before this one; -1 for the root node
+  int link = 0;                // the link that carries it
   Vec3 offset = Vec3::Zero();  // in that link's frame (m)
-  double radius = 0;   // of the capsule round the segment that ends here (m); 0 at the root
-  double mass = 0;     // of that segment (kg)
+  double radius = 0;           // of the capsule round the segment that ends here (m); 0 at the root
+  double mass = 0;             // of that segment (kg)
 };
 
 struct Body {

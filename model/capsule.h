@@ -8,8 +8,8 @@ namespace retarget {
 // Closest points p = a + s (b - a) and q = c + t (d - c), s and t in [0, 1].
 struct ClosestPoints {
   double s = 0, t = 0;
-  double distance = 0;        // m
-  Vec3 normal = Vec3::Zero(); // unit, from q to p; across both segments where they meet
+  double distance = 0;         // m
+  Vec3 normal = Vec3::Zero();  // unit, from q to p; across both segments where they meet
 };
 
 // Closest points of the segments a->b and c->d, degenerate ones included (Lumelsky 1985, in the

@@ -23,7 +23,8 @@ std::vector<bool> PlantedFrames(const std::vector<Vec3>& p, double fps,
   std::vector<bool> planted(p.size());
   for (int k = 0; k < n; ++k) {
     const int before = std::max(k - 1, 0), after = std::min(k + 1, n - 1);
-    const double speed = after > before ? (p[after] - p[before]).norm() * fps / (after - before) : 0;
+    const double speed =
+        after > before ? (p[after] - p[before]).norm() * fps / (after - before) : 0;
     planted[k] = speed < settings.speed && p[k].y() <= ceiling;
   }
   return planted;

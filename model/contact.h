@@ -17,8 +17,8 @@ struct Contact {
 };
 
 // Contacts of the nodes `supports` in a clip: slower than settings.speed (central difference) and
-// within settings.height of the node's own 5th percentile of height; gaps shorter than max_gap_s are
-// closed, then runs shorter than min_length_s dropped. Sorted by node, then by time.
+// within settings.height of the node's own 5th percentile of height; gaps shorter than max_gap_s
+// are closed, then runs shorter than min_length_s dropped. Sorted by node, then by time.
 std::vector<Contact> DetectContacts(const Body& body, const Clip& clip,
                                     const std::vector<int>& supports,
                                     const ContactSettings& settings);

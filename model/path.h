@@ -18,8 +18,8 @@ struct Path {
 // The nodes that a path visits, from `from` to `to` (both included).
 std::vector<int> NodesOn(const Body& body, const Path& path);
 
-// The sign vector of a path over the body's segments, in {-1, 0, 1}^(nodes - 1): entry n - 1 belongs
-// to the segment that ends at node n, +1 where the path walks it away from the root.
+// The sign vector of a path over the body's segments, in {-1, 0, 1}^(nodes - 1): entry n - 1
+// belongs to the segment that ends at node n, +1 where the path walks it away from the root.
 Eigen::VectorXi SignsOf(const Body& body, const Path& path);
 
 // GLI of every segment of one posture against every segment of another, both walked away from the
@@ -29,7 +29,8 @@ MatX SegmentGliTable(const Body& a, const std::vector<Vec3>& nodes_a, const Body
 
 // GLI (turns) of two polylines and its gradient with respect to their points (turns per metre).
 // All terms at interior points cancel between neighbouring segments: what is left are the segments
-// of one polyline seen from the two end points of the other, 2 (m + n) edge vectors in place of 4mn.
+// of one polyline seen from the two end points of the other, 2 (m + n) edge vectors in place of
+// 4mn.
 struct PathGli {
   double value = 0;
   std::vector<Vec3> gradient_p;  // one per point of p

@@ -31,8 +31,7 @@ PosedRig PoseRig(const Rig& rig, const RigFrame& frame) {
       posed.position[j] = frame.translation[j];
     } else {
       posed.rotation[j] = posed.rotation[parent] * frame.rotation[j];
-      posed.position[j] =
-          posed.position[parent] + posed.rotation[parent] * frame.translation[j];
+      posed.position[j] = posed.position[parent] + posed.rotation[parent] * frame.translation[j];
     }
   }
   return posed;

@@ -12,10 +12,10 @@ namespace retarget {
 
 struct RigJoint {
   std::string name;
-  int parent = -1;              // joint, always before this one; -1 for a root
-  Vec3 offset = Vec3::Zero();   // rest translation in the parent's frame (file units)
-  std::optional<Vec3> end_site; // a leaf's end point in its own frame (file units)
-  bool translates = false;      // the file moves this joint (position channels on all axes)
+  int parent = -1;               // joint, always before this one; -1 for a root
+  Vec3 offset = Vec3::Zero();    // rest translation in the parent's frame (file units)
+  std::optional<Vec3> end_site;  // a leaf's end point in its own frame (file units)
+  bool translates = false;       // the file moves this joint (position channels on all axes)
 };
 
 struct Rig {
@@ -51,30 +51,30 @@ RigFrame SampleRig(const RigMotion& motion, double time);
 
 // Which rig joint plays which part. Indices of rig joints, -1 where the rig has none.
 struct JointMap {
-  std::string profile;      // "mixamo", "cmu", ..., or "topology"
+  std::string profile;  // "mixamo", "cmu", ..., or "topology"
   int root = -1;
-  std::vector<int> spine;   // bones between root and neck, in order (may be empty)
-  std::vector<int> neck;    // neck bones, in order (may be empty)
+  std::vector<int> spine;  // bones between root and neck, in order (may be empty)
+  std::vector<int> neck;   // neck bones, in order (may be empty)
   int head = -1;
   struct Side {
     int clavicle = -1, shoulder = -1, elbow = -1, wrist = -1;
-    int hand = -1;          // base of the middle finger, where there is one
+    int hand = -1;  // base of the middle finger, where there is one
     int hip = -1, knee = -1, ankle = -1;
-    int toe = -1;           // toe joint, where there is one
+    int toe = -1;  // toe joint, where there is one
   };
   Side left, right;
-  int head_top = -1;        // a joint at the vertex (HeadTop_End), where there is one
+  int head_top = -1;  // a joint at the vertex (HeadTop_End), where there is one
 };
 
 // What was recognised in a file.
 struct RigFacts {
   JointMap map;
   double metres_per_unit = 0.01;
-  std::string unit_name = "cm";     // "m", "cm", "in", "cmu", "mm" or the number
-  char up = 'y';                    // 'y' or 'z'
-  double stature = 0;               // m
-  std::vector<int> t_pose_frames;   // at the start of the clip
-  std::vector<std::string> notes;   // warnings for the user, one line each
+  std::string unit_name = "cm";    // "m", "cm", "in", "cmu", "mm" or the number
+  char up = 'y';                   // 'y' or 'z'
+  double stature = 0;              // m
+  std::vector<int> t_pose_frames;  // at the start of the clip
+  std::vector<std::string> notes;  // warnings for the user, one line each
 };
 
 }  // namespace retarget

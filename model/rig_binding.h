@@ -1,5 +1,5 @@
-// Lays the body into a rig: which body the rig's owner has, which posture a rig frame shows, and how
-// a changed posture goes back onto the rig.
+// Lays the body into a rig: which body the rig's owner has, which posture a rig frame shows, and
+// how a changed posture goes back onto the rig.
 //
 // Binding is by bone directions. In a reference frame (the rest pose if it stands, else the clip's
 // frame that stands best) every link is turned from its parent by the smallest rotation that brings
@@ -17,6 +17,9 @@
 #include "model/rig.h"
 
 namespace retarget {
+
+// Difference in the chest's distance that is not worth bending a rig's spine for (m).
+inline constexpr double kSpineSlack = 0.0015;
 
 class RigBinding {
  public:
@@ -47,8 +50,8 @@ class RigBinding {
   struct LinkBinding {
     int bone = -1;
     int from = -1;
-    int to = -1;               // -1: to the end point below
-    Vec3 end = Vec3::Zero();   // in to's place: a point in bone's frame (file units); zero: none
+    int to = -1;              // -1: to the end point below
+    Vec3 end = Vec3::Zero();  // in to's place: a point in bone's frame (file units); zero: none
     Vec3 direction = Vec3::UnitY();  // canonical, in the link
     Quat turn = Quat::Identity();    // link = bone * turn
   };
@@ -61,7 +64,8 @@ class RigBinding {
   void MapLinks(const Rig& rig, const JointMap& map, int chest_bone);
   LinkBinding Limb(const Rig& rig, int bone, int to, const Vec3& direction) const;
   World ToWorld(const RigFrame& frame) const;
-  bool Direction(const World& world, const LinkBinding& link, Vec3* direction, double* length) const;
+  bool Direction(const World& world, const LinkBinding& link, Vec3* direction,
+                 double* length) const;
   void BindTurns(const World& reference);
   World ReferenceFrame(const RigMotion& motion) const;
   double StandingScore(const World& world) const;
@@ -74,13 +78,13 @@ class RigBinding {
 
   Rig rig_;
   JointMap map_;
-  Quat up_ = Quat::Identity();   // file axes to world axes
-  double scale_ = 0.01;          // metres per file unit, of the body as requested
+  Quat up_ = Quat::Identity();  // file axes to world axes
+  double scale_ = 0.01;         // metres per file unit, of the body as requested
   double ratio_ = 1;
   Body body_;
-  std::vector<LinkBinding> link_;        // by link of the standard body
-  std::vector<int> link_of_bone_;        // by rig joint; -1: keeps its local motion
-  std::vector<int> spine_group_;         // bones between root and chest
+  std::vector<LinkBinding> link_;  // by link of the standard body
+  std::vector<int> link_of_bone_;  // by rig joint; -1: keeps its local motion
+  std::vector<int> spine_group_;   // bones between root and chest
   std::vector<int> joint_at_node_;
 };
 

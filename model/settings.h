@@ -28,7 +28,7 @@ struct JointWeights {
 };
 
 struct TangleSettings {
-  double margin = 0.05;      // turns over one half that a tag aims for
+  double margin = 0.05;  // turns over one half that a tag aims for
   double min_rho = 0.08;
   double min_rho_share = 0.3;
   int max_tags = 6;
@@ -36,27 +36,27 @@ struct TangleSettings {
 
 // What a solved scene must show (DESIGN 1, 9).
 struct Requirements {
-  double gli = 0.5;                   // turns, every tag, every instant
+  double gli = 0.5;  // turns, every tag, every instant
   int pass_throughs = 0;
-  double penetration_m = 0.02;        // largest, between the bodies
-  double penetration_1cm_percent = 1; // share of frames over 1 cm
+  double penetration_m = 0.02;         // largest, between the bodies
+  double penetration_1cm_percent = 1;  // share of frames over 1 cm
   double foot_drift_m = 0.01;
   double floor_m = 0.01;
   double hold_m = 0.02;
 };
 
 struct SolveSettings {
-  std::string backend = "banded";  // "banded" or "ceres"
-  std::string start = "template";  // initial guess
-  int threads = 0;                 // 0: all cores
-  int max_iterations = 120;        // over all stages
-  double max_seconds = 0;          // 0: no limit
-  double relative_decrease = 3e-3; // of the cost; twice in a row ends a stage
-  double polish_decrease = 1e-3;   // the same for the last stage
-  double step_limit_m = 0.10;      // no node moves further in one iteration
-  double gli_jump = 0.4;           // turns; a larger jump of a segment pair is a pass-through
-  double initial_damping = 1e-3;   // of Levenberg-Marquardt, times diag(J^T J)
-  std::string stages = "0.1 1";  // factors of the contact weights, warm started
+  std::string backend = "banded";   // "banded" or "ceres"
+  std::string start = "template";   // initial guess
+  int threads = 0;                  // 0: all cores
+  int max_iterations = 120;         // over all stages
+  double max_seconds = 0;           // 0: no limit
+  double relative_decrease = 3e-3;  // of the cost; twice in a row ends a stage
+  double polish_decrease = 1e-3;    // the same for the last stage
+  double step_limit_m = 0.10;       // no node moves further in one iteration
+  double gli_jump = 0.4;            // turns; a larger jump of a segment pair is a pass-through
+  double initial_damping = 1e-3;    // of Levenberg-Marquardt, times diag(J^T J)
+  std::string stages = "0.1 1";     // factors of the contact weights, warm started
 };
 
 struct ContactSettings {
@@ -81,17 +81,23 @@ template <typename SettingsT, typename Visitor>
 void VisitSettings(SettingsT& s, Visitor&& visit) {
   const double kMax = 1e6;
   auto& w = s.weights;
-  visit("weights.pose_tracking", w.pose_tracking, "1/rad", "joint rotations stay as captured", 0, kMax);
-  visit("weights.root_tracking", w.root_tracking, "1/m, 1/rad", "root stays with its placed clip, or with its partner", 0, kMax);
-  visit("weights.smoothness", w.smoothness, "1/rad", "second difference of the joint edits, per (1/30 s)^2", 0, kMax);
-  visit("weights.root_smoothness", w.root_smoothness, "1/m, 1/rad", "the same of the root edit", 0, kMax);
+  visit("weights.pose_tracking", w.pose_tracking, "1/rad", "joint rotations stay as captured", 0,
+        kMax);
+  visit("weights.root_tracking", w.root_tracking, "1/m, 1/rad",
+        "root stays with its placed clip, or with its partner", 0, kMax);
+  visit("weights.smoothness", w.smoothness, "1/rad",
+        "second difference of the joint edits, per (1/30 s)^2", 0, kMax);
+  visit("weights.root_smoothness", w.root_smoothness, "1/m, 1/rad", "the same of the root edit", 0,
+        kMax);
   visit("weights.foot_lock", w.foot_lock, "1/m", "planted feet stay where they are", 0, kMax);
   visit("weights.hold", w.hold, "1/m, 1/rad", "hands hold what the template holds", 0, kMax);
   visit("weights.penetration", w.penetration, "1/m", "the bodies do not overlap", 0, kMax);
-  visit("weights.self_penetration", w.self_penetration, "1/m", "no body overlaps itself more than captured", 0, kMax);
+  visit("weights.self_penetration", w.self_penetration, "1/m",
+        "no body overlaps itself more than captured", 0, kMax);
   visit("weights.ground", w.ground, "1/m", "nothing below the floor", 0, kMax);
   visit("weights.tangle", w.tangle, "1/turn", "tagged tangles stay above one half", 0, kMax);
-  visit("weights.joint_limit", w.joint_limit, "1/rad", "joints bend no further than the limit or the capture", 0, kMax);
+  visit("weights.joint_limit", w.joint_limit, "1/rad",
+        "joints bend no further than the limit or the capture", 0, kMax);
   auto& j = s.joint_weights;
   visit("joint_weights.waist", j.waist, "", "share of pose_tracking and smoothness", 0, kMax);
   visit("joint_weights.chest", j.chest, "", "the same", 0, kMax);
@@ -106,16 +112,22 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("joint_weights.ankle", j.ankle, "", "the same", 0, kMax);
   visit("joint_weights.other", j.other, "", "joints of a larger body table", 0, kMax);
   auto& t = s.tangle;
-  visit("tangle.margin", t.margin, "turns", "a tag aims this far over one half (never over the template)", 0, 0.5);
+  visit("tangle.margin", t.margin, "turns",
+        "a tag aims this far over one half (never over the template)", 0, 0.5);
   visit("tangle.min_rho", t.min_rho, "rad, m", "weaker tangles are not tagged", 0, 10);
-  visit("tangle.min_rho_share", t.min_rho_share, "", "nor those this much weaker than the most robust", 0, 1);
+  visit("tangle.min_rho_share", t.min_rho_share, "",
+        "nor those this much weaker than the most robust", 0, 1);
   visit("tangle.max_tags", t.max_tags, "", "largest number of tags", 1, 100);
   auto& r = s.requirements;
   visit("requirements.gli", r.gli, "turns", "every tag, signed, at every instant", 0, 2);
-  visit("requirements.pass_throughs", r.pass_throughs, "", "limbs that went through limbs", 0, 1000000);
-  visit("requirements.penetration_m", r.penetration_m, "m", "largest depth between the bodies", 0, 1);
-  visit("requirements.penetration_1cm_percent", r.penetration_1cm_percent, "%", "share of frames over 1 cm", 0, 100);
-  visit("requirements.foot_drift_m", r.foot_drift_m, "m", "of a planted node from where its contact began", 0, 1);
+  visit("requirements.pass_throughs", r.pass_throughs, "", "limbs that went through limbs", 0,
+        1000000);
+  visit("requirements.penetration_m", r.penetration_m, "m", "largest depth between the bodies", 0,
+        1);
+  visit("requirements.penetration_1cm_percent", r.penetration_1cm_percent, "%",
+        "share of frames over 1 cm", 0, 100);
+  visit("requirements.foot_drift_m", r.foot_drift_m, "m",
+        "of a planted node from where its contact began", 0, 1);
   visit("requirements.floor_m", r.floor_m, "m", "deepest point below the floor", 0, 1);
   visit("requirements.hold_m", r.hold_m, "m", "largest distance of held points", 0, 1);
   auto& v = s.solve;
@@ -124,12 +136,17 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("solve.threads", v.threads, "", "0: all cores", 0, 256);
   visit("solve.max_iterations", v.max_iterations, "", "over all stages", 1, 100000);
   visit("solve.max_seconds", v.max_seconds, "s", "0: no limit", 0, kMax);
-  visit("solve.relative_decrease", v.relative_decrease, "", "of the cost; twice in a row ends a stage", 0, 1);
+  visit("solve.relative_decrease", v.relative_decrease, "",
+        "of the cost; twice in a row ends a stage", 0, 1);
   visit("solve.polish_decrease", v.polish_decrease, "", "the same for the last stage", 0, 1);
-  visit("solve.step_limit_m", v.step_limit_m, "m", "no node moves further in one iteration", 1e-4, 10);
-  visit("solve.gli_jump", v.gli_jump, "turns", "a larger jump of a segment pair rejects the step", 0.05, 2);
-  visit("solve.initial_damping", v.initial_damping, "", "of Levenberg-Marquardt, times diag(J^T J)", 1e-12, kMax);
-  visit("solve.stages", v.stages, "", "factors of the contact weights, warm started one after the other", "", 0);
+  visit("solve.step_limit_m", v.step_limit_m, "m", "no node moves further in one iteration", 1e-4,
+        10);
+  visit("solve.gli_jump", v.gli_jump, "turns", "a larger jump of a segment pair rejects the step",
+        0.05, 2);
+  visit("solve.initial_damping", v.initial_damping, "", "of Levenberg-Marquardt, times diag(J^T J)",
+        1e-12, kMax);
+  visit("solve.stages", v.stages, "",
+        "factors of the contact weights, warm started one after the other", "", 0);
   auto& c = s.contact;
   visit("contact.speed", c.speed, "m/s", "a planted node is slower", 0, 10);
   visit("contact.height", c.height, "m", "over the node's 5th percentile", 0, 1);

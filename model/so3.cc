@@ -34,8 +34,7 @@ Mat3 RightJacobianInverse(const Vec3& v) {
   const Mat3 k = Skew(v);
   if (angle2 < 1e-8) return Mat3::Identity() + 0.5 * k + k * k / 12.0;
   const double angle = std::sqrt(angle2);
-  const double c =
-      1.0 / angle2 - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+  const double c = 1.0 / angle2 - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
   return Mat3::Identity() + 0.5 * k + c * k * k;
 }
 
@@ -58,9 +57,7 @@ Quat TwistAbout(const Quat& q, const Vec3& axis) {
   return Quat(q.w() / n, v.x(), v.y(), v.z());
 }
 
-double YawOf(const Quat& q) {
-  return std::remainder(2.0 * std::atan2(q.y(), q.w()), 2.0 * kPi);
-}
+double YawOf(const Quat& q) { return std::remainder(2.0 * std::atan2(q.y(), q.w()), 2.0 * kPi); }
 
 Quat YawRotation(double yaw) { return Quat(std::cos(0.5 * yaw), 0, std::sin(0.5 * yaw), 0); }
 

@@ -11,8 +11,8 @@ namespace {
 // All paths of a body, shortest first, and how each is made shorter by one segment at either end.
 struct PathList {
   std::vector<Path> paths;
-  std::vector<int> length;                    // segments
-  std::vector<std::array<int, 2>> shorter;    // path ids, -1 for the empty path
+  std::vector<int> length;                  // segments
+  std::vector<std::array<int, 2>> shorter;  // path ids, -1 for the empty path
 
   explicit PathList(const Body& body) {
     const int n = body.num_nodes();
@@ -64,8 +64,8 @@ std::vector<Vec3> PointsOn(const Body& body, const PosedBody& posed, const Path&
   return points;
 }
 
-// Squared norm of a gradient given at nodes, over the body's coordinates: the root's translation and
-// a turn about every joint centre (any orthonormal axes, so the world's).
+// Squared norm of a gradient given at nodes, over the body's coordinates: the root's translation
+// and a turn about every joint centre (any orthonormal axes, so the world's).
 double CoordinateNorm2(const Body& body, const PosedBody& posed, const std::vector<int>& nodes,
                        const std::vector<Vec3>& gradient) {
   Vec3 translation = Vec3::Zero();
@@ -81,7 +81,8 @@ double CoordinateNorm2(const Body& body, const PosedBody& posed, const std::vect
   return sum;
 }
 
-// What crosses what, and how strongly, in the tangle's own sense: max(0, s p_i q_j G_ij), flattened.
+// What crosses what, and how strongly, in the tangle's own sense: max(0, s p_i q_j G_ij),
+// flattened.
 VecX CrossingVector(const Body& a, const Body& b, const MatX& table, const Tangle& tangle) {
   const Eigen::VectorXd p = SignsOf(a, tangle.a).cast<double>();
   const Eigen::VectorXd q = SignsOf(b, tangle.b).cast<double>();
@@ -142,7 +143,8 @@ std::vector<Tangle> FindTanglesByDefinition(const Body& a, const Body& b, const 
         for (int y = x + 1; y < b.num_nodes(); ++y) {
           const double gli = PathPairGli(g, {u, v}, {x, y});
           if (std::abs(gli) <= kTangleThreshold) continue;
-          if (!beaten_by_sub_path(p, NodesOn(b, {x, y}), gli)) found.push_back({{u, v}, {x, y}, gli});
+          if (!beaten_by_sub_path(p, NodesOn(b, {x, y}), gli))
+            found.push_back({{u, v}, {x, y}, gli});
         }
       }
     }
@@ -157,7 +159,8 @@ PosedBody PosedFromNodes(const Body& body, const std::vector<Vec3>& nodes) {
   posed.rotation.assign(body.links.size(), Mat3::Identity());
   posed.centre.assign(body.links.size(), Vec3::Zero());
   for (int n = body.num_nodes() - 1; n >= 0; --n) {
-    // The link that carries a node turns about the node's parent (a root's own node carries itself).
+    // The link that carries a node turns about the node's parent (a root's own node carries
+    // itself).
     const int parent = body.nodes[n].parent;
     const int link = body.nodes[n].link;
     posed.centre[link] = link == 0 ? nodes[0] : nodes[parent];
@@ -167,8 +170,8 @@ PosedBody PosedFromNodes(const Body& body, const std::vector<Vec3>& nodes) {
 
 double TangleGradientNorm(const Body& a, const PosedBody& posed_a, const Body& b,
                           const PosedBody& posed_b, const Tangle& tangle) {
-  const PathGli gli = PolylineGliWithGradient(PointsOn(a, posed_a, tangle.a),
-                                              PointsOn(b, posed_b, tangle.b));
+  const PathGli gli =
+      PolylineGliWithGradient(PointsOn(a, posed_a, tangle.a), PointsOn(b, posed_b, tangle.b));
   return std::sqrt(CoordinateNorm2(a, posed_a, NodesOn(a, tangle.a), gli.gradient_p) +
                    CoordinateNorm2(b, posed_b, NodesOn(b, tangle.b), gli.gradient_q));
 }
@@ -185,17 +188,17 @@ std::vector<Tag> ReduceTangles(const Body& a, const PosedBody& posed_a, const Bo
   for (const Tangle& tangle : literal) {
     const double norm = TangleGradientNorm(a, posed_a, b, posed_b, tangle);
     const double rho = (std::abs(tangle.gli) - kTangleThreshold) / std::max(norm, 1e-12);
-    const int segments = static_cast<int>(NodesOn(a, tangle.a).size() + NodesOn(b, tangle.b).size());
+    const int segments =
+        static_cast<int>(NodesOn(a, tangle.a).size() + NodesOn(b, tangle.b).size());
     left.push_back({{tangle, rho, 1}, CrossingVector(a, b, table, tangle), segments});
   }
-  std::stable_sort(left.begin(), left.end(), [](const Candidate& x, const Candidate& y) {
-    return x.tag.rho > y.tag.rho;
-  });
+  std::stable_sort(left.begin(), left.end(),
+                   [](const Candidate& x, const Candidate& y) { return x.tag.rho > y.tag.rho; });
   std::vector<Tag> tags;
   while (!left.empty() && static_cast<int>(tags.size()) < options.max_tags) {
     const Candidate best = left.front();
-    const bool weak = !tags.empty() && best.tag.rho < std::max(options.min_rho,
-                                                              options.min_rho_share * tags[0].rho);
+    const bool weak = !tags.empty() &&
+                      best.tag.rho < std::max(options.min_rho, options.min_rho_share * tags[0].rho);
     if (weak) break;
     Candidate chosen = best;
     std::vector<Candidate> others;

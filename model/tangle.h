@@ -10,8 +10,8 @@
 
 namespace retarget {
 
-inline constexpr double kTangleThreshold = 0.5;   // turns; section 4.2
-inline constexpr double kTangleTie = 1e-12;       // turns; values closer than this are equal
+inline constexpr double kTangleThreshold = 0.5;  // turns; section 4.2
+inline constexpr double kTangleTie = 1e-12;      // turns; values closer than this are equal
 
 // A path of body a, a path of body b, and their GLI (turns, signed).
 struct Tangle {
@@ -30,8 +30,8 @@ std::vector<Tangle> FindTanglesByDefinition(const Body& a, const Body& b, const 
 // A tangle worth a residual, and why.
 struct Tag {
   Tangle tangle;
-  double rho = 0;        // robustness radius (rad, m): how far the bodies may move before it is lost
-  int group_size = 1;    // literal tangles that say the same
+  double rho = 0;      // robustness radius (rad, m): how far the bodies may move before it is lost
+  int group_size = 1;  // literal tangles that say the same
 };
 
 struct ReductionOptions {

@@ -17,8 +17,8 @@ namespace retarget {
 // Figures are numbered: 0 is a, 1 is b; a hold may also be made to the world.
 inline constexpr int kWorld = 2;
 
-// A point of a figure (node, and an offset in the frame of the link that carries it) or of the world
-// (offset = the position itself), m.
+// A point of a figure (node, and an offset in the frame of the link that carries it) or of the
+// world (offset = the position itself), m.
 struct HoldPoint {
   int figure = 0;
   int node = 0;
@@ -29,7 +29,7 @@ struct HoldPoint {
 // template posture, so a hold never asks for overlap.
 struct Hold {
   HoldPoint from, to;
-  bool rotation = false;                   // also keep the relative orientation (Eq. 5)
+  bool rotation = false;                      // also keep the relative orientation (Eq. 5)
   Quat relative_rotation = Quat::Identity();  // of from's link in to's frame, in the template
 };
 
@@ -62,7 +62,7 @@ struct TemplatePosture {
   std::vector<Hold> holds;
   std::array<std::vector<int>, 2> supports;  // nodes that may be planted
   std::array<RootLeader, 2> root = {RootLeader::kOwnClip, RootLeader::kOwnClip};
-  std::vector<TangleRequest> tangles;        // empty: find and reduce
+  std::vector<TangleRequest> tangles;  // empty: find and reduce
   std::optional<TemplatePhoto> photo;
   std::optional<TemplateCamera> camera;
 };

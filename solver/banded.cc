@@ -92,7 +92,8 @@ void BandedSystem::AddFrame(int frame, double damping, const FrameBlock& block, 
     const int row = kAnchorSize * static_cast<int>(k);
     const int to = Find(*front, num_frames_ + block.anchors[k]);
     if (to > at) {
-      front->matrix.block(to, at, kAnchorSize, n_) += block.anchor_coupling.middleRows(row, kAnchorSize);
+      front->matrix.block(to, at, kAnchorSize, n_) +=
+          block.anchor_coupling.middleRows(row, kAnchorSize);
     } else {
       front->matrix.block(at, to, n_, kAnchorSize) +=
           block.anchor_coupling.middleRows(row, kAnchorSize).transpose();
@@ -209,8 +210,10 @@ void BandedSystem::BackSubstitute(const Factor& factor, BandedStep* step) const 
   }
   const int rest = size - factor.own;
   x.head(factor.own).noalias() -= factor.l.bottomRows(rest).transpose() * x.tail(rest);
-  factor.l.topRows(factor.own).triangularView<Eigen::Lower>().transpose().solveInPlace(
-      x.head(factor.own));
+  factor.l.topRows(factor.own)
+      .triangularView<Eigen::Lower>()
+      .transpose()
+      .solveInPlace(x.head(factor.own));
   for (size_t i = 0; i < factor.variables.size() && factor.offset[i] < factor.own; ++i) {
     const int v = factor.variables[i];
     if (v < num_frames_) {
@@ -242,7 +245,8 @@ bool BandedSystem::Solve(const Assemble& assemble, const VecX& damping, int thre
 
 size_t BandedSystem::memory_bytes() const {
   size_t bytes = 0;
-  for (const Factor& f : factor_) bytes += static_cast<size_t>(f.l.size() + f.y.size()) * sizeof(double);
+  for (const Factor& f : factor_)
+    bytes += static_cast<size_t>(f.l.size() + f.y.size()) * sizeof(double);
   return bytes;
 }
 

@@ -21,13 +21,13 @@ inline constexpr int kAnchorSize = 2;
 
 // What one frame brings to the normal equations J^T J x = -J^T r.
 struct FrameBlock {
-  MatX hessian;                 // [n x n], lower triangle
-  VecX gradient;                // J^T r [n]
+  MatX hessian;   // [n x n], lower triangle
+  VecX gradient;  // J^T r [n]
   // Anchors that stand in this frame: their rows of J^T J and J^T r.
   std::vector<int> anchors;
-  MatX anchor_coupling;         // [2 anchors x n]
-  VecX anchor_diagonal;         // [2 anchors]
-  VecX anchor_gradient;         // [2 anchors]
+  MatX anchor_coupling;  // [2 anchors x n]
+  VecX anchor_diagonal;  // [2 anchors]
+  VecX anchor_gradient;  // [2 anchors]
 };
 
 // The frames of an anchor's contact, both included.
@@ -60,8 +60,8 @@ class BandedSystem {
 
  private:
   // A dense symmetric matrix (lower triangle) and right-hand side over a list of variables: frames
-  // are 0 .. frames - 1, anchors follow. Once its first `eliminated` variables are gone, the rest is
-  // what the next front inherits.
+  // are 0 .. frames - 1, anchors follow. Once its first `eliminated` variables are gone, the rest
+  // is what the next front inherits.
   struct Front {
     std::vector<int> variables;
     std::vector<int> offset;
@@ -74,17 +74,17 @@ class BandedSystem {
   struct Factor {
     std::vector<int> variables;  // own first
     std::vector<int> offset;
-    int own = 0;                 // scalars
-    MatX l;                      // [own + rest] x own
-    VecX y;                      // [own]
+    int own = 0;  // scalars
+    MatX l;       // [own + rest] x own
+    VecX y;       // [own]
   };
   // One of the two directions of elimination.
   struct Chain {
     int direction = 1;
     int thread = 0;
-    std::vector<int> frames;     // in order of elimination
-    Front front;                 // the last one eliminated
-    Front next;                  // the one being built
+    std::vector<int> frames;  // in order of elimination
+    Front front;              // the last one eliminated
+    Front next;               // the one being built
     FrameBlock block;
     MatX anchor_gradient;
     bool failed = false;
@@ -106,9 +106,9 @@ class BandedSystem {
   int num_frames_, n_;
   std::vector<AnchorSpan> anchors_;
   VecX stencil_;
-  std::vector<int> middle_;       // the last frames, eliminated together
+  std::vector<int> middle_;  // the last frames, eliminated together
   Chain chain_[2];
-  std::vector<Factor> factor_;    // by frame; that of the middle at middle_[0]
+  std::vector<Factor> factor_;  // by frame; that of the middle at middle_[0]
 };
 
 }  // namespace retarget

@@ -1,6 +1,6 @@
-// Levenberg-Marquardt on the frame-banded normal equations. Steps are shortened and damped per frame:
-// where one would carry a limb too far, or through a limb, or into a contact that the linear model
-// did not see, those frames are held back and the rest of the clip goes on.
+// Levenberg-Marquardt on the frame-banded normal equations. Steps are shortened and damped per
+// frame: where one would carry a limb too far, or through a limb, or into a contact that the linear
+// model did not see, those frames are held back and the rest of the clip goes on.
 #include <algorithm>
 #include <cmath>
 
@@ -13,12 +13,12 @@
 namespace retarget {
 namespace {
 
-constexpr double kGuardReach = 0.25;      // m; pairs further apart cannot meet within a step
+constexpr double kGuardReach = 0.25;  // m; pairs further apart cannot meet within a step
 constexpr double kLeastDamping = 1e-9;
-constexpr double kMostDamping = 1e5;     // only a cliff (a pass-through) lies ahead: no way on
-constexpr int kShortenings = 6;           // trials of one step
-constexpr int kMostRejections = 12;       // in a row
-constexpr double kShareSlope = 0.12;      // change of the share from frame to frame
+constexpr double kMostDamping = 1e5;  // only a cliff (a pass-through) lies ahead: no way on
+constexpr int kShortenings = 6;       // trials of one step
+constexpr int kMostRejections = 12;   // in a row
+constexpr double kShareSlope = 0.12;  // change of the share from frame to frame
 
 class BandedStage {
  public:
@@ -236,10 +236,10 @@ class BandedStage {
   BandedStep step_;
   std::vector<NodePositions> accepted_, trial_;
   std::vector<double> accepted_cost_, trial_cost_;
-  std::vector<double> move_;     // of the last trial, per frame (m)
+  std::vector<double> move_;  // of the last trial, per frame (m)
   std::vector<char> tunnelled_;
-  VecX caution_;                 // factor of the damping, per frame
-  VecX share_;                   // of the last step, per frame
+  VecX caution_;  // factor of the damping, per frame
+  VecX share_;    // of the last step, per frame
 };
 
 }  // namespace

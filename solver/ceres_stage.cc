@@ -1,6 +1,6 @@
 // The terms in Ceres Solver: the one file that knows it. Every joint edit is a parameter block of
-// three, every anchor one of two; clips are solved by conjugate gradients on the normal equations with a
-// block Jacobi preconditioner, single frames by dense Cholesky.
+// three, every anchor one of two; clips are solved by conjugate gradients on the normal equations
+// with a block Jacobi preconditioner, single frames by dense Cholesky.
 #include <ceres/ceres.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 constexpr double kGuardReach = 0.25;  // m; pairs further apart cannot meet within a step
 constexpr int kBlock = 3;             // of a joint's edit
 constexpr int kAnchor = 2;
-constexpr double kFreeRadius = 1e3;   // of the trust region, over diag(J^T J)
+constexpr double kFreeRadius = 1e3;  // of the trust region, over diag(J^T J)
 
 // Ceres wants a fixed number of residuals, hinges come and go: the rows of a term in one frame go
 // into this many slots. Should there be more, the last slot takes the root of the remaining sum of
@@ -45,9 +45,8 @@ class FrameCache : public ceres::EvaluationCallback {
 
   void PrepareForEvaluation(bool evaluate_jacobians, bool new_point) override {
     if (!new_point && (!evaluate_jacobians || has_charts_)) return;
-    ParallelFor(scene_.num_frames(), threads_, [&](int t, int) {
-      frames_[t].Set(scene_, unknowns_, t, evaluate_jacobians);
-    });
+    ParallelFor(scene_.num_frames(), threads_,
+                [&](int t, int) { frames_[t].Set(scene_, unknowns_, t, evaluate_jacobians); });
     has_charts_ = evaluate_jacobians;
     if (evaluate_jacobians) {
       Accept();  // derivatives are asked for at accepted points only
@@ -106,7 +105,8 @@ class TermCostFunction : public ceres::CostFunction {
     set_num_residuals(slots);
     blocks_ = cache->frame(t).scene ? cache->frame(t).scene->num_coordinates() / kBlock : 0;
     mutable_parameter_block_sizes()->assign(static_cast<size_t>(blocks_), kBlock);
-    mutable_parameter_block_sizes()->resize(static_cast<size_t>(blocks_) + anchors_.size(), kAnchor);
+    mutable_parameter_block_sizes()->resize(static_cast<size_t>(blocks_) + anchors_.size(),
+                                            kAnchor);
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
@@ -126,7 +126,8 @@ class TermCostFunction : public ceres::CostFunction {
       std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return size(i) > size(j); });
     }
     double rest = 0;
-    for (size_t k = static_cast<size_t>(kept); k < order.size(); ++k) rest += size(order[k]) * size(order[k]);
+    for (size_t k = static_cast<size_t>(kept); k < order.size(); ++k)
+      rest += size(order[k]) * size(order[k]);
     rest = std::sqrt(rest);
     for (size_t k = 0; k < order.size(); ++k) {
       const int row = order[k];
@@ -288,7 +289,8 @@ class CeresStage {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
     if (callback.status != SolveStatus::kConverged) return callback.status;
-    return result_->iterations >= context_.iterations_left && summary.termination_type == ceres::NO_CONVERGENCE
+    return result_->iterations >= context_.iterations_left &&
+                   summary.termination_type == ceres::NO_CONVERGENCE
                ? SolveStatus::kIterationLimit
                : SolveStatus::kConverged;
   }
@@ -312,7 +314,8 @@ class CeresStage {
       for (int f = 0; f < 2; ++f) {
         for (int l = 1; l < scene_.body[f].num_links(); ++l) {
           if (!scene_.body[f].links[l].locked) continue;
-          problem_.SetParameterBlockConstant(BlockOf(t, scene_.FirstCoordinate(f) / kBlock + 1 + l));
+          problem_.SetParameterBlockConstant(
+              BlockOf(t, scene_.FirstCoordinate(f) / kBlock + 1 + l));
         }
       }
     }

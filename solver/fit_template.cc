@@ -98,8 +98,8 @@ TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Bod
   one_frame.solve.backend = "banded";
   one_frame.solve.threads = 1;
   one_frame.solve.stages = "1";
-  const int steps = std::max(StepsBetween(posture.body[0], body[0]),
-                             StepsBetween(posture.body[1], body[1]));
+  const int steps =
+      std::max(StepsBetween(posture.body[0], body[0]), StepsBetween(posture.body[1], body[1]));
   Scene scene;
   // The value that counts is the template's own: on its bodies, not on these.
   scene.tangles = HoldTangles(tags, posture, settings.tangle.margin);
@@ -107,8 +107,8 @@ TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Bod
   TemplatePosture last = posture;
   for (int k = 1; k <= steps; ++k) {
     const double u = static_cast<double>(k) / steps;
-    const TemplatePosture wanted = OnBodies(posture, {Between(posture.body[0], body[0], u),
-                                                      Between(posture.body[1], body[1], u)});
+    const TemplatePosture wanted = OnBodies(
+        posture, {Between(posture.body[0], body[0], u), Between(posture.body[1], body[1], u)});
     scene.body = wanted.body;
     scene.posture = wanted;
     scene.holds = wanted.holds;

@@ -16,10 +16,10 @@ struct TemplateTangles {
 };
 TemplateTangles FindTemplateTangles(const TemplatePosture& posture, const TangleSettings& settings);
 
-// Fits a template to other bodies: joint rotations are tracked while one-frame solves with the terms
-// of the spacetime problem restore holds, tangles and non-penetration. The bodies are changed little
-// by little, each solve starting where the last one ended, so that an arm that goes under an arm in
-// the template still does so on a body that is a head shorter.
+// Fits a template to other bodies: joint rotations are tracked while one-frame solves with the
+// terms of the spacetime problem restore holds, tangles and non-penetration. The bodies are changed
+// little by little, each solve starting where the last one ended, so that an arm that goes under an
+// arm in the template still does so on a body that is a head shorter.
 TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Body, 2>& body,
                             const std::vector<Tag>& tags, const Settings& settings);
 

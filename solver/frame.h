@@ -12,8 +12,8 @@ namespace retarget {
 struct Frame {
   const Scene* scene = nullptr;
   int t = 0;
-  const double* x = nullptr;       // the frame's coordinates [scene.num_coordinates()]
-  const MatX* anchor = nullptr;    // Unknowns::anchor
+  const double* x = nullptr;     // the frame's coordinates [scene.num_coordinates()]
+  const MatX* anchor = nullptr;  // Unknowns::anchor
   std::array<Pose, 2> pose;
   std::array<PosedBody, 2> posed;
   // chart[figure][link]: turns a change of the link's edit into the world's angular change,

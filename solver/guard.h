@@ -15,7 +15,7 @@ namespace retarget {
 using NodePositions = std::array<std::vector<Vec3>, 2>;
 
 struct GliJump {
-  double size = 0;          // turns
+  double size = 0;             // turns
   int node_a = 0, node_b = 0;  // the segments, by outer node
 };
 

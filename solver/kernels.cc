@@ -1,8 +1,8 @@
 #include "solver/kernels.h"
 
-#define RETARGET_DECLARE_KERNEL(isa)                                                           \
-  extern "C" bool retarget_partial_cholesky_##isa(double*, int, int, int, int, double*);            \
-  extern "C" void retarget_add_normal_equations_##isa(const double*, const double*, int, int,  \
+#define RETARGET_DECLARE_KERNEL(isa)                                                          \
+  extern "C" bool retarget_partial_cholesky_##isa(double*, int, int, int, int, double*);      \
+  extern "C" void retarget_add_normal_equations_##isa(const double*, const double*, int, int, \
                                                       double*, double*);
 RETARGET_DECLARE_KERNEL(portable)
 RETARGET_DECLARE_KERNEL(avx2)

@@ -8,8 +8,8 @@ namespace retarget {
 //   a [size x size], lower triangle, column-major with leading dimension `stride`;  b [size]
 // leaves L (own columns), the Schur complement (rest) and the forward-substituted right-hand side.
 // The last `triangular` rows may be promised to be zero before their diagonal position in the own
-// columns, entries (size - triangular + i, j) with j < i, as the smoothness stencil leaves them: what
-// stays zero is skipped. False where a pivot is not positive.
+// columns, entries (size - triangular + i, j) with j < i, as the smoothness stencil leaves them:
+// what stays zero is skipped. False where a pivot is not positive.
 bool PartialCholesky(double* a, int stride, int size, int own, int triangular, double* b);
 
 // h += J^T J (lower triangle, [n x n], column-major, leading dimension n) and g += J^T r, for

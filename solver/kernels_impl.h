@@ -59,8 +59,9 @@ bool Factor(Matrix& m, int own, int triangular) {
 
 }  // namespace
 
-extern "C" bool RETARGET_CONCAT(retarget_partial_cholesky_, RETARGET_KERNEL)(
-    double* a, int stride, int size, int own, int triangular, double* b) {
+extern "C" bool RETARGET_CONCAT(retarget_partial_cholesky_,
+                                RETARGET_KERNEL)(double* a, int stride, int size, int own,
+                                                 int triangular, double* b) {
   using Matrix = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
   Matrix m(a, size, size, Eigen::OuterStride<>(stride));
   Eigen::Map<Eigen::VectorXd> rhs(b, size);
@@ -71,8 +72,9 @@ extern "C" bool RETARGET_CONCAT(retarget_partial_cholesky_, RETARGET_KERNEL)(
   return true;
 }
 
-extern "C" void RETARGET_CONCAT(retarget_add_normal_equations_, RETARGET_KERNEL)(
-    const double* jacobian, const double* residual, int rows, int n, double* h, double* g) {
+extern "C" void RETARGET_CONCAT(retarget_add_normal_equations_,
+                                RETARGET_KERNEL)(const double* jacobian, const double* residual,
+                                                 int rows, int n, double* h, double* g) {
   // Row-major J is column-major J^T.
   const Eigen::Map<const Eigen::MatrixXd> jt(jacobian, n, rows);
   const Eigen::Map<const Eigen::VectorXd> r(residual, rows);

@@ -12,10 +12,10 @@
 namespace retarget {
 namespace {
 
-constexpr int kSubSamples = 4;       // instants per frame interval
-constexpr double kPassJump = 0.5;    // turns
-constexpr double kPassReach = 0.6;   // m; further apart no pair can jump between instants
-constexpr double kSlideSpeed = 0.01; // m/s
+constexpr int kSubSamples = 4;        // instants per frame interval
+constexpr double kPassJump = 0.5;     // turns
+constexpr double kPassReach = 0.6;    // m; further apart no pair can jump between instants
+constexpr double kSlideSpeed = 0.01;  // m/s
 
 struct Depth {
   double depth = 0;
@@ -46,7 +46,8 @@ Depth DeepestBetween(const std::array<Body, 2>& body, const NodePositions& node)
 double DeepestWithin(const Body& body, const std::vector<std::pair<int, int>>& pairs,
                      const std::vector<Vec3>& node) {
   double deepest = 0;
-  for (const auto& [i, j] : pairs) deepest = std::max(deepest, DepthOf(body, node, i, body, node, j));
+  for (const auto& [i, j] : pairs)
+    deepest = std::max(deepest, DepthOf(body, node, i, body, node, j));
   return deepest;
 }
 
@@ -174,8 +175,7 @@ class Measurement {
         if (body.nodes[n].name.find("shoulder") != std::string::npos) continue;
         const double length = subject_.length[f][n];
         const double is = (now.node[f][n] - now.node[f][body.nodes[n].parent]).norm();
-        m.length_error_percent =
-            std::max(m.length_error_percent, 100 * std::abs(is / length - 1));
+        m.length_error_percent = std::max(m.length_error_percent, 100 * std::abs(is / length - 1));
       }
       if (on_frame) {
         m.self_penetration_m =
@@ -197,7 +197,8 @@ class Measurement {
           m.foot_drift_frame = t;
         }
         if (t == c.first) continue;
-        const double speed = (frames_[t][f][c.node] - frames_[t - 1][f][c.node]).norm() * motion_.fps;
+        const double speed =
+            (frames_[t][f][c.node] - frames_[t - 1][f][c.node]).norm() * motion_.fps;
         m.foot_speed_max = std::max(m.foot_speed_max, speed);
         ++stance;
         sliding += speed > kSlideSpeed;
@@ -268,7 +269,8 @@ class Measurement {
     for (size_t t = 0; t + 3 < frames.size(); ++t) {
       for (size_t n = 0; n < frames[t][f].size(); ++n) {
         sum += (frames[t + 3][f][n] - 3 * frames[t + 2][f][n] + 3 * frames[t + 1][f][n] -
-                frames[t][f][n]).norm();
+                frames[t][f][n])
+                   .norm();
         ++count;
       }
     }
@@ -350,25 +352,26 @@ std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject, c
                           frame(m.tangles[k].worst_frame)});
   }
   const double passes = static_cast<double>(m.pass_throughs.size());
-  checks.push_back({"pass-throughs", passes, static_cast<double>(r.pass_throughs), "",
-                    passes <= r.pass_throughs,
-                    m.pass_throughs.empty()
-                        ? ""
-                        : frame(m.pass_throughs[0].frame) + ", a " +
-                              node(0, m.pass_throughs[0].node_a) + " through b " +
-                              node(1, m.pass_throughs[0].node_b)});
+  checks.push_back(
+      {"pass-throughs", passes, static_cast<double>(r.pass_throughs), "", passes <= r.pass_throughs,
+       m.pass_throughs.empty()
+           ? ""
+           : frame(m.pass_throughs[0].frame) + ", a " + node(0, m.pass_throughs[0].node_a) +
+                 " through b " + node(1, m.pass_throughs[0].node_b)});
   const double deepest = std::max(m.penetration_m, m.penetration_between_m);
   checks.push_back({"penetration", deepest, r.penetration_m, "m", deepest <= r.penetration_m,
-                    deepest > 0 ? frame(m.penetration_frame) + ", a " + node(0, m.penetration_node_a) +
-                                      " in b " + node(1, m.penetration_node_b)
-                                : ""});
+                    deepest > 0
+                        ? frame(m.penetration_frame) + ", a " + node(0, m.penetration_node_a) +
+                              " in b " + node(1, m.penetration_node_b)
+                        : ""});
   checks.push_back({"penetration over 1 cm", m.penetration_over_1cm_percent,
                     r.penetration_1cm_percent, "% of frames",
                     m.penetration_over_1cm_percent <= r.penetration_1cm_percent, ""});
   for (int f = 0; f < 2; ++f) {
     const std::string who = f == 0 ? "a" : "b";
     checks.push_back({"foot drift " + who, m.figure[f].foot_drift_m, r.foot_drift_m, "m",
-                      m.figure[f].foot_drift_m <= r.foot_drift_m, frame(m.figure[f].foot_drift_frame)});
+                      m.figure[f].foot_drift_m <= r.foot_drift_m,
+                      frame(m.figure[f].foot_drift_frame)});
     checks.push_back({"floor " + who, m.figure[f].floor_m, r.floor_m, "m",
                       m.figure[f].floor_m <= r.floor_m, ""});
   }

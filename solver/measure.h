@@ -32,8 +32,8 @@ MotionView ViewOf(const std::array<Body, 2>& body, const std::array<Clip, 2>& cl
 
 // What is measured against: tags, contacts, holds and bodies of the scene.
 struct MeasureSubject {
-  std::array<Body, 2> body;                  // tree and radii
-  std::array<std::vector<double>, 2> length; // of the segment that ends at each node (m)
+  std::array<Body, 2> body;                   // tree and radii
+  std::array<std::vector<double>, 2> length;  // of the segment that ends at each node (m)
   std::vector<HeldTangle> tangles;
   std::vector<Hold> holds;
   std::array<std::vector<Contact>, 2> contacts;
@@ -48,7 +48,7 @@ struct TangleMetrics {
 };
 
 struct PassThrough {
-  int frame = 0;        // the jump lies between this frame and the next
+  int frame = 0;  // the jump lies between this frame and the next
   int node_a = 0, node_b = 0;
 };
 
@@ -57,25 +57,25 @@ struct FigureMetrics {
   double floor_m = 0;
   double foot_drift_m = 0;
   int foot_drift_frame = 0;
-  double foot_speed_max = 0;                // m/s, inside contacts
-  double foot_speed_over_1cm_percent = 0;   // of stance frames
-  double pose_error_cm = 0;                 // mean over nodes of no tagged path
-  double joint_edit_deg = 0;                // mean over nodes' links and frames
-  double jerk = 0;                          // m/s^3
-  double jerk_ratio_own = 1;                // to its own source
-  double jerk_ratio_larger = 1;             // to the larger of the two sources
-  double length_error_percent = 0;          // of segments, neck-shoulder exempt
-  std::vector<double> path_m;               // per node, relative to the root
+  double foot_speed_max = 0;               // m/s, inside contacts
+  double foot_speed_over_1cm_percent = 0;  // of stance frames
+  double pose_error_cm = 0;                // mean over nodes of no tagged path
+  double joint_edit_deg = 0;               // mean over nodes' links and frames
+  double jerk = 0;                         // m/s^3
+  double jerk_ratio_own = 1;               // to its own source
+  double jerk_ratio_larger = 1;            // to the larger of the two sources
+  double length_error_percent = 0;         // of segments, neck-shoulder exempt
+  std::vector<double> path_m;              // per node, relative to the root
 };
 
 struct Metrics {
   std::vector<TangleMetrics> tangles;
-  double tangle_kept_percent = 100;         // frames in which every tag is above one half
-  double smallest_gli = 0;                  // over all tags and frames; 0 without tags
+  double tangle_kept_percent = 100;  // frames in which every tag is above one half
+  double smallest_gli = 0;           // over all tags and frames; 0 without tags
   double smallest_gli_between = 0;
   std::vector<PassThrough> pass_throughs;
-  double penetration_m = 0;                 // largest, frames
-  double penetration_between_m = 0;         // largest, 4x
+  double penetration_m = 0;          // largest, frames
+  double penetration_between_m = 0;  // largest, 4x
   int penetration_frame = 0;
   int penetration_node_a = 0, penetration_node_b = 0;
   double penetration_over_1cm_percent = 0;  // of frames
@@ -84,7 +84,8 @@ struct Metrics {
   std::array<FigureMetrics, 2> figure;
 };
 
-// Measures `motion`; `source` (the placed, unedited clips) is what edits and jerk are compared with.
+// Measures `motion`; `source` (the placed, unedited clips) is what edits and jerk are compared
+// with.
 Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const MotionView& source);
 
 // A requirement and whether it is met; `where` names frame and limb of the worst.

@@ -10,8 +10,8 @@
 namespace retarget {
 
 struct Placement {
-  double yaw = 0;              // rad
-  Vec3 shift = Vec3::Zero();   // m, after the turn
+  double yaw = 0;             // rad
+  Vec3 shift = Vec3::Zero();  // m, after the turn
 };
 
 Pose Placed(const Pose& pose, const Placement& placement);

@@ -80,14 +80,17 @@ std::vector<TermCost> Problem::CostByTerm(const Unknowns& unknowns) const {
       terms_[k]->Evaluate(frame, &rows);
       cost.cost += weight_[k] * weight_[k] * rows.HalfSquares();
       for (const double r : rows.residual()) cost.largest = std::max(cost.largest, std::abs(r));
-      for (const auto& c : rows.coordinates()) cost.largest = std::max(cost.largest, std::abs(c.residual));
+      for (const auto& c : rows.coordinates())
+        cost.largest = std::max(cost.largest, std::abs(c.residual));
     }
     costs.push_back(cost);
   }
   const int n = scene_->num_frames();
   const Weights& w = settings_.weights;
-  costs.push_back({"smoothness", "rad", w.smoothness, smoothness_.HalfSquares(unknowns.edit, 0, n, false), 0});
-  costs.push_back({"root_smoothness", "m, rad", w.root_smoothness, smoothness_.HalfSquares(unknowns.edit, 0, n, true), 0});
+  costs.push_back(
+      {"smoothness", "rad", w.smoothness, smoothness_.HalfSquares(unknowns.edit, 0, n, false), 0});
+  costs.push_back({"root_smoothness", "m, rad", w.root_smoothness,
+                   smoothness_.HalfSquares(unknowns.edit, 0, n, true), 0});
   return costs;
 }
 

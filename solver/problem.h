@@ -17,8 +17,8 @@ namespace retarget {
 struct TermCost {
   std::string name, unit;
   double weight = 0;
-  double cost = 0;        // weighted, 1/2 sum (w r)^2
-  double largest = 0;     // natural unit
+  double cost = 0;     // weighted, 1/2 sum (w r)^2
+  double largest = 0;  // natural unit
 };
 
 class Problem {

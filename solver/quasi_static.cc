@@ -81,7 +81,8 @@ class Pass {
   }
 
   bool Sound(const NodePositions& accepted, const NodePositions& now, int previous) const {
-    if (LargestGliJump(scene_.body, accepted, now, kGuardReach).size > options_.gli_jump) return false;
+    if (LargestGliJump(scene_.body, accepted, now, kGuardReach).size > options_.gli_jump)
+      return false;
     return previous < 0 ||
            LargestGliJump(scene_.body, last_, now, kGuardReach).size <= options_.gli_jump;
   }

@@ -24,14 +24,16 @@ void WarnOfWeakTags(RetargetResult* result) {
     const std::string who = Describe(result->scene, held.tag.tangle);
     const double gli = std::abs(held.tag.tangle.gli);
     if (gli < 0.6) {
-      result->warnings.push_back(WithNumber("tag " + who + " is weak in the template: |GLI| ", gli));
+      result->warnings.push_back(
+          WithNumber("tag " + who + " is weak in the template: |GLI| ", gli));
     } else if (held.tag.rho < 0.1) {
       result->warnings.push_back(
           WithNumber("tag " + who + " is easily lost: robustness radius ", held.tag.rho));
     }
   }
   if (result->scene.tangles.empty()) {
-    result->warnings.push_back("the template has no tangles: only holds and contacts tie the figures");
+    result->warnings.push_back(
+        "the template has no tangles: only holds and contacts tie the figures");
   }
 }
 
@@ -48,8 +50,8 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
   scene.holds = scene.posture.holds;
   scene.root = scene.posture.root;
   for (int f = 0; f < 2; ++f) {
-    scene.contacts[f] = DetectContacts(input.body[f], input.clip[f], scene.posture.supports[f],
-                                       settings.contact);
+    scene.contacts[f] =
+        DetectContacts(input.body[f], input.clip[f], scene.posture.supports[f], settings.contact);
     result.placement[f] = PlaceAt(input.body[f], input.clip[f], input.template_frame,
                                   scene.posture.pose[f], scene.contacts[f]);
     scene.source[f] = Placed(input.clip[f], result.placement[f]);

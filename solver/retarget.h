@@ -14,16 +14,16 @@ namespace retarget {
 
 struct RetargetInput {
   std::array<Body, 2> body;
-  std::array<Clip, 2> clip;     // as captured (m, Y up), one rate and one number of frames
+  std::array<Clip, 2> clip;  // as captured (m, Y up), one rate and one number of frames
   TemplatePosture posture;
-  int template_frame = 0;       // laid into the template
+  int template_frame = 0;  // laid into the template
 };
 
 struct RetargetResult {
   TemplateTangles tangles;
   Scene scene;
   std::array<Placement, 2> placement;
-  double start_seconds = 0;    // spent on the initial guess
+  double start_seconds = 0;  // spent on the initial guess
   SolveResult solve;
   std::array<Clip, 2> solved;
   std::vector<TermCost> costs;

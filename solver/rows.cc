@@ -18,7 +18,8 @@ int Rows::Add(double r) {
   residual_.push_back(r);
   const int row = num_rows() - 1;
   if (derivatives_) {
-    if (row >= jacobian_.rows()) jacobian_.conservativeResize(2 * jacobian_.rows(), jacobian_.cols());
+    if (row >= jacobian_.rows())
+      jacobian_.conservativeResize(2 * jacobian_.rows(), jacobian_.cols());
     jacobian_.row(row).setZero();
   }
   return row;

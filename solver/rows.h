@@ -1,6 +1,6 @@
 // Rows of the residual vector of one frame, with their derivatives. A term says only how a residual
-// changes with a point, a turn or a coordinate; the chain rule through the skeleton is written here,
-// once.
+// changes with a point, a turn or a coordinate; the chain rule through the skeleton is written
+// here, once.
 #pragma once
 
 #include <vector>

@@ -52,8 +52,8 @@ std::array<Clip, 2> EditedClips(const Scene& scene, const Unknowns& unknowns) {
     out[f].fps = scene.source[f].fps;
     out[f].frames.resize(scene.num_frames());
     for (int t = 0; t < scene.num_frames(); ++t) {
-      EditedPose(scene.source[f].frames[t],
-                 unknowns.edit.col(t).data() + scene.FirstCoordinate(f), &out[f].frames[t]);
+      EditedPose(scene.source[f].frames[t], unknowns.edit.col(t).data() + scene.FirstCoordinate(f),
+                 &out[f].frames[t]);
     }
   }
   return out;

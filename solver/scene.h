@@ -1,4 +1,5 @@
-// What the spacetime problem is about: two bodies, the motions they are to keep, and what ties them.
+// What the spacetime problem is about: two bodies, the motions they are to keep, and what ties
+// them.
 #pragma once
 
 #include <array>
@@ -35,8 +36,8 @@ struct Scene {
   int FirstCoordinate(int figure) const { return figure == 0 ? 0 : body[0].num_coordinates(); }
 };
 
-// The unknowns. Column t of `edit` is the edit of frame t: per figure the root's translation (m) and
-// a rotation vector (rad) per link, R = R_source exp(delta). `anchor` holds where each contact
+// The unknowns. Column t of `edit` is the edit of frame t: per figure the root's translation (m)
+// and a rotation vector (rad) per link, R = R_source exp(delta). `anchor` holds where each contact
 // stands: column k of [2 x contacts of a, then of b] is its place on the floor, x and z (m).
 struct Unknowns {
   MatX edit;

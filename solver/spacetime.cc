@@ -33,8 +33,8 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
   std::vector<Frame> frames(static_cast<size_t>(threads));
   std::vector<std::array<std::vector<int>, 2>> paths;
   for (const HeldTangle& held : scene.tangles) {
-    paths.push_back({NodesOn(scene.body[0], held.tag.tangle.a),
-                     NodesOn(scene.body[1], held.tag.tangle.b)});
+    paths.push_back(
+        {NodesOn(scene.body[0], held.tag.tangle.a), NodesOn(scene.body[1], held.tag.tangle.b)});
   }
   std::vector<Rows> rows(static_cast<size_t>(threads));
   const Term* penetration = nullptr;
@@ -56,7 +56,8 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
     for (const double r : rows[thread].residual()) depth[t] = std::max(depth[t], r);
     for (const Hold& h : scene.holds) {
       hold[t] = std::max(hold[t], (HoldPosition(h.from, scene.body, frame.posed) -
-                                   HoldPosition(h.to, scene.body, frame.posed)).norm());
+                                   HoldPosition(h.to, scene.body, frame.posed))
+                                      .norm());
     }
   });
   iteration->smallest_gli = *std::min_element(gli.begin(), gli.end());
@@ -88,7 +89,8 @@ void SolveStages(const Problem& problem, const std::vector<double>& stages, doub
 
 }  // namespace
 
-SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const Progress& progress) {
+SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
+                           const Progress& progress) {
   const std::vector<double> stages = ParseStages(problem.settings().solve.stages);
   const int threads = NumThreads(problem.settings().solve.threads);
   const double started = SecondsNow();
@@ -98,7 +100,8 @@ SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const 
   result.initial_cost = problem.Cost(start, 1, threads);
   SolveStages(problem, stages, started, progress, &result);
   result.cost = problem.Cost(result.unknowns, 1, threads);
-  // Weak contacts may lead away from a start that was better already: then full contacts from there.
+  // Weak contacts may lead away from a start that was better already: then full contacts from
+  // there.
   if (result.cost > result.initial_cost && result.status == SolveStatus::kConverged) {
     result.unknowns = start;
     SolveStages(problem, {1}, started, progress, &result);

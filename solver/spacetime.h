@@ -14,11 +14,11 @@ struct Iteration {
   int stage = 0;
   int index = 0;
   double cost = 0;
-  double step_m = 0;             // furthest node
-  double smallest_gli = 0;       // s GLI over all tags and frames (turns)
+  double step_m = 0;        // furthest node
+  double smallest_gli = 0;  // s GLI over all tags and frames (turns)
   double deepest_penetration_m = 0;
   double hold_error_m = 0;
-  double seconds = 0;            // since the start of the solve
+  double seconds = 0;  // since the start of the solve
 };
 
 enum class SolveStatus { kConverged, kIterationLimit, kTimeLimit, kInterrupted };
@@ -28,7 +28,7 @@ struct SolveResult {
   SolveStatus status = SolveStatus::kConverged;
   double initial_cost = 0, cost = 0;
   double seconds = 0;
-  int iterations = 0;        // accepted
+  int iterations = 0;  // accepted
   int linear_solves = 0;
   std::string backend;
   std::vector<Iteration> history;
@@ -47,11 +47,11 @@ std::vector<double> ParseStages(const std::string& text);
 struct StageContext {
   const Problem* problem;
   double contact_factor;
-  double tolerance;            // relative decrease, twice in a row ends the stage
+  double tolerance;  // relative decrease, twice in a row ends the stage
   int iterations_left;
-  double seconds_left;         // 0: no limit
+  double seconds_left;  // 0: no limit
   int stage;
-  double started;              // clock at the start of the solve
+  double started;  // clock at the start of the solve
   const Progress* progress;
 };
 SolveStatus SolveStageBanded(const StageContext& context, SolveResult* result);

@@ -49,8 +49,10 @@ RigidMotion MotionOfPair(const Scene& scene, int t) {
   const RigidMotion a = CarriedBy(scene, 0, t), b = CarriedBy(scene, 1, t);
   const Quat turn = a.rotation.slerp(0.5, b.rotation);
   // Half way between where the two motions take the middle of the figures.
-  const Vec3 middle = 0.5 * (scene.posture.pose[0].root_position + scene.posture.pose[1].root_position);
-  const Vec3 target = 0.5 * (a.rotation * middle + a.translation + b.rotation * middle + b.translation);
+  const Vec3 middle =
+      0.5 * (scene.posture.pose[0].root_position + scene.posture.pose[1].root_position);
+  const Vec3 target =
+      0.5 * (a.rotation * middle + a.translation + b.rotation * middle + b.translation);
   return {turn, target - turn * middle};
 }
 
@@ -58,7 +60,8 @@ RigidMotion MotionOfPair(const Scene& scene, int t) {
 
 std::array<Clip, 2> TemplateRelativePoses(const Scene& scene) {
   std::array<Clip, 2> start = scene.source;
-  const std::array<std::vector<char>, 2> involved = {InvolvedLinks(scene, 0), InvolvedLinks(scene, 1)};
+  const std::array<std::vector<char>, 2> involved = {InvolvedLinks(scene, 0),
+                                                     InvolvedLinks(scene, 1)};
   for (int t = 0; t < scene.num_frames(); ++t) {
     const RigidMotion motion = MotionOfPair(scene, t);
     for (int f = 0; f < 2; ++f) {

@@ -8,9 +8,9 @@
 namespace retarget {
 
 // Start of the solve, by settings.solve.start:
-//  template: the template posture, carried frame by frame through the clip. The pair is laid into the
-//  template at scene.template_frame; from there a quasi-static pass (solver/quasi_static.h) goes
-//  outwards, each frame starting where its neighbour ended.
+//  template: the template posture, carried frame by frame through the clip. The pair is laid into
+//  the template at scene.template_frame; from there a quasi-static pass (solver/quasi_static.h)
+//  goes outwards, each frame starting where its neighbour ended.
 Unknowns StartOf(const Problem& problem);
 
 // Both figures in the template posture relative to each other in every frame, carried along by the

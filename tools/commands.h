@@ -12,7 +12,14 @@
 
 namespace retarget {
 
-enum ExitCode { kDone = 0, kInternal = 1, kBadInput = 2, kMissed = 3, kLimit = 4, kInterrupted = 130 };
+enum ExitCode {
+  kDone = 0,
+  kInternal = 1,
+  kBadInput = 2,
+  kMissed = 3,
+  kLimit = 4,
+  kInterrupted = 130
+};
 
 struct RetargetOptions {
   std::array<ClipOptions, 2> clip;

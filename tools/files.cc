@@ -69,14 +69,15 @@ OutputSet::OutputSet(const std::string& folder, const std::vector<std::string>& 
     const fs::path path = fs::path(folder) / name;
     for (const std::string& input : inputs) {
       if (SameFile(path, input)) {
-        throw InputError(fmt::format("--out {}: would overwrite the input {}; choose another folder",
-                                     folder, input));
+        throw InputError(fmt::format(
+            "--out {}: would overwrite the input {}; choose another folder", folder, input));
       }
     }
     if (fs::exists(path, error) && !ours && !force) {
-      throw InputError(fmt::format(
-          "--out {}: {} is there and no earlier run wrote it; choose another folder or give --force",
-          folder, name));
+      throw InputError(
+          fmt::format("--out {}: {} is there and no earlier run wrote it; choose another folder or "
+                      "give --force",
+                      folder, name));
     }
   }
   fs::create_directories(folder, error);

@@ -13,20 +13,20 @@ namespace retarget {
 
 struct ClipOptions {
   std::string path;
-  std::string option;        // "a" or "b": which options messages name
-  double start = 0;          // s into the clip
-  double stature = 0;        // m, 0: the clip's own
-  std::string units;         // as given, empty: guess
-  std::string up;            // "y", "z", empty: guess
-  int skip_frames = 0;       // dropped from the beginning
+  std::string option;   // "a" or "b": which options messages name
+  double start = 0;     // s into the clip
+  double stature = 0;   // m, 0: the clip's own
+  std::string units;    // as given, empty: guess
+  std::string up;       // "y", "z", empty: guess
+  int skip_frames = 0;  // dropped from the beginning
 };
 
 struct LoadedClip {
   ClipOptions options;
-  BvhFile file;              // without the skipped frames
+  BvhFile file;  // without the skipped frames
   RigFacts facts;
   std::unique_ptr<RigBinding> binding;
-  std::string hash;          // of the file's bytes
+  std::string hash;  // of the file's bytes
 
   double duration() const {  // s from the first to the last frame
     return (file.motion.num_frames() - 1) * file.motion.frame_time;

@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "io/settings_file.h"
 #include "io/recognise.h"
+#include "io/settings_file.h"
 #include "tools/commands.h"
 #include "tools/version.h"
 
@@ -13,7 +13,8 @@ namespace retarget {
 
 int RunMap(const ClipOptions& options, bool json) {
   const LoadedClip clip = RecogniseClip(options);
-  fmt::print("{}", json ? MapJson(clip.facts, clip.file.motion) : MapTable(clip.facts, clip.file.motion));
+  fmt::print("{}",
+             json ? MapJson(clip.facts, clip.file.motion) : MapTable(clip.facts, clip.file.motion));
   return kDone;
 }
 
@@ -31,12 +32,22 @@ void AddClipOptions(CLI::App* app, ClipOptions* clip, const std::string& figure,
   const std::string suffix = figure.empty() ? "" : "-" + figure;
   const std::string group = figure.empty() ? "Options" : "Clip " + figure;
   clip->option = figure;
-  app->add_option("--units" + suffix, clip->units, "cm, m, mm, in, cmu or metres per unit (default: guess)")->group(group);
-  app->add_option("--up" + suffix, clip->up, "up axis (default: from the motion)")->check(CLI::IsMember({"y", "z"}))->group(group);
-  app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")->check(CLI::NonNegativeNumber)->group(group);
+  app->add_option("--units" + suffix, clip->units,
+                  "cm, m, mm, in, cmu or metres per unit (default: guess)")
+      ->group(group);
+  app->add_option("--up" + suffix, clip->up, "up axis (default: from the motion)")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->group(group);
+  app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
   if (!solve) return;
-  app->add_option("--start" + suffix, clip->start, "seconds into the clip")->check(CLI::NonNegativeNumber)->group(group);
-  app->add_option("--stature" + suffix, clip->stature, "the motion on a body of this height (m)")->check(CLI::Range(0.5, 3.0))->group(group);
+  app->add_option("--start" + suffix, clip->start, "seconds into the clip")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
+  app->add_option("--stature" + suffix, clip->stature, "the motion on a body of this height (m)")
+      ->check(CLI::Range(0.5, 3.0))
+      ->group(group);
 }
 
 struct CommandLine {
@@ -61,12 +72,18 @@ struct CommandLine {
     app->add_option("--clip-a", o.clip[0].path, "first clip (BVH)");
     app->add_option("--clip-b", o.clip[1].path, "second clip (BVH)");
     app->add_option("--template", o.template_path, "template posture (YAML)");
-    app->add_option("--config", o.config_path, "weights and settings (YAML; see `retarget config`)");
+    app->add_option("--config", o.config_path,
+                    "weights and settings (YAML; see `retarget config`)");
     app->add_option("--set", o.set, "one setting, such as weights.tangle=20 (repeatable)");
     app->add_option("--out", o.out, "folder for the results")->capture_default_str();
     app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
-    app->add_option("--fps", o.fps, "output frame rate")->check(CLI::Range(1.0, 1000.0))->capture_default_str();
-    app->add_option("--template-at", o.template_at, "instant laid into the template, s from the starts")->check(CLI::NonNegativeNumber)->capture_default_str();
+    app->add_option("--fps", o.fps, "output frame rate")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
+    app->add_option("--template-at", o.template_at,
+                    "instant laid into the template, s from the starts")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     app->add_option("--threads", o.threads, "0: all cores")->check(CLI::Range(0, 256));
     app->add_flag("--json", o.json, "print the report as JSON");
     app->add_flag("--force", o.force, "overwrite files that no earlier run wrote");
@@ -80,7 +97,8 @@ struct CommandLine {
     verify->add_flag("--json", json);
     verify->callback([this] { code = RunVerify(folder, json); });
 
-    CLI::App* tangles = app->add_subcommand("tangles", "what is tangled in a template or in node positions");
+    CLI::App* tangles =
+        app->add_subcommand("tangles", "what is tangled in a template or in node positions");
     tangles->add_option("file", file, "template (YAML) or positions (JSON)")->required();
     tangles->add_flag("--json", json);
     tangles->callback([this] { code = RunTangles(file, json); });
@@ -91,7 +109,8 @@ struct CommandLine {
     map->add_flag("--json", json);
     map->callback([this] { code = RunMap(map_clip, json); });
 
-    CLI::App* settings = app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");
+    CLI::App* settings =
+        app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");
     settings->add_option("--config", config, "start from this file");
     settings->add_option("--set", set, "change one setting");
     settings->callback([this] { code = RunConfig(config, set); });
@@ -101,7 +120,8 @@ struct CommandLine {
     render->add_option("--out", picture, "PNG file (default: scene.png in the folder)");
     render->add_flag("--force", force, "overwrite the file");
     render->callback([this] {
-      code = RunRender(folder, picture.empty() ? folder + "/scene.png" : picture, force || picture.empty());
+      code = RunRender(folder, picture.empty() ? folder + "/scene.png" : picture,
+                       force || picture.empty());
     });
   }
 
@@ -111,7 +131,8 @@ struct CommandLine {
     posture->add_option("--from-clips", clips, "two clips that share a world")->expected(2);
     posture->add_option("--frame", from_clips.frame, "frame of both clips, from 0");
     posture->add_option("--out", from_clips.out, "template to write (YAML)");
-    posture->add_option("--name", from_clips.name, "name of the new template")->default_str("from clips");
+    posture->add_option("--name", from_clips.name, "name of the new template")
+        ->default_str("from clips");
     posture->add_flag("--force", from_clips.force, "overwrite the file");
     posture->add_flag("--json", json);
     AddClipOptions(posture, &from_clips.clip[0], "a", false);
@@ -131,10 +152,12 @@ struct CommandLine {
 
   int RunMain() const {
     const std::pair<const char*, const std::string*> required[] = {
-        {"--clip-a", &retarget.clip[0].path}, {"--clip-b", &retarget.clip[1].path},
+        {"--clip-a", &retarget.clip[0].path},
+        {"--clip-b", &retarget.clip[1].path},
         {"--template", &retarget.template_path}};
     for (const auto& [name, value] : required) {
-      if (value->empty()) throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
+      if (value->empty())
+        throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
     }
     return RunRetarget(retarget);
   }
@@ -145,8 +168,9 @@ struct CommandLine {
 
 int main(int argc, char** argv) {
   using namespace retarget;
-  CLI::App app("Two motions, each captured alone, become one scene of two people tangled with each other.",
-               "retarget");
+  CLI::App app(
+      "Two motions, each captured alone, become one scene of two people tangled with each other.",
+      "retarget");
   CommandLine command;
   command.Build(&app);
   try {

@@ -14,7 +14,8 @@ namespace {
 constexpr int kColumns = 4, kWidth = 360, kHeight = 450;
 constexpr double kAzimuth = 0.9, kElevation = 0.2;  // rad
 
-std::vector<RenderCapsule> CapsulesAt(const MotionView& view, const MeasureSubject& subject, double frame) {
+std::vector<RenderCapsule> CapsulesAt(const MotionView& view, const MeasureSubject& subject,
+                                      double frame) {
   PostureSample sample;
   view.at(frame, &sample);
   std::vector<RenderCapsule> out;
@@ -59,7 +60,9 @@ int RunRender(const std::string& folder, const std::string& out, bool force) {
       const double aspect = static_cast<double>(kWidth) / kHeight;
       Image image = RenderCapsules(capsules, CameraAround(capsules, kAzimuth, kElevation, aspect),
                                    kWidth, kHeight);
-      DrawLabel(&image, 10, 10, fmt::format("{} {:.1f} s", motion == &source ? "source" : "solved", frame / view.fps), 2);
+      DrawLabel(
+          &image, 10, 10,
+          fmt::format("{} {:.1f} s", motion == &source ? "source" : "solved", frame / view.fps), 2);
       rows.back().push_back(std::move(image));
     }
   }

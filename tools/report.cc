@@ -66,7 +66,8 @@ MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body
   MotionView view;
   const std::vector<double>& keys = scene.key_times;
   view.num_frames = static_cast<int>(keys.size());
-  view.fps = keys.size() > 1 ? (static_cast<double>(keys.size()) - 1) / (keys.back() - keys.front()) : 30;
+  view.fps =
+      keys.size() > 1 ? (static_cast<double>(keys.size()) - 1) / (keys.back() - keys.front()) : 30;
   view.at = [&scene, nodes, keys](double frame, PostureSample* sample) {
     const size_t k = std::min(static_cast<size_t>(frame), keys.size() - 1);
     const double next = keys[std::min(k + 1, keys.size() - 1)];
@@ -123,14 +124,15 @@ Json SubjectJson(const MeasureSubject& subject, const Metrics& result) {
   out["tangles"] = Json::array();
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
     const HeldTangle& held = subject.tangles[k];
-    out["tangles"].push_back({{"a", PathJson(subject.body[0], held.tag.tangle.a)},
-                              {"b", PathJson(subject.body[1], held.tag.tangle.b)},
-                              {"template_gli", held.tag.tangle.gli},
-                              {"target", held.target},
-                              {"rho", held.tag.rho},
-                              {"min_signed_gli", result.tangles[k].min_signed_gli},
-                              {"min_signed_gli_between_frames", result.tangles[k].min_signed_gli_between},
-                              {"frames_below_half", result.tangles[k].frames_below_half}});
+    out["tangles"].push_back(
+        {{"a", PathJson(subject.body[0], held.tag.tangle.a)},
+         {"b", PathJson(subject.body[1], held.tag.tangle.b)},
+         {"template_gli", held.tag.tangle.gli},
+         {"target", held.target},
+         {"rho", held.tag.rho},
+         {"min_signed_gli", result.tangles[k].min_signed_gli},
+         {"min_signed_gli_between_frames", result.tangles[k].min_signed_gli_between},
+         {"frames_below_half", result.tangles[k].frames_below_half}});
   }
   out["pass_throughs"] = Json::array();
   for (const PassThrough& p : result.pass_throughs) {
@@ -150,9 +152,8 @@ Json SubjectJson(const MeasureSubject& subject, const Metrics& result) {
   for (int f = 0; f < 2; ++f) {
     Json contacts = Json::array();
     for (const Contact& c : subject.contacts[f]) {
-      contacts.push_back({{"node", subject.body[f].nodes[c.node].name},
-                          {"first", c.first},
-                          {"last", c.last}});
+      contacts.push_back(
+          {{"node", subject.body[f].nodes[c.node].name}, {"first", c.first}, {"last", c.last}});
     }
     out["contacts"][kFigure[f]] = contacts;
   }
@@ -209,30 +210,36 @@ MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
 Json ChecksJson(const std::vector<RequirementCheck>& checks) {
   Json out = Json::array();
   for (const RequirementCheck& c : checks) {
-    out.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"unit", c.unit},
-                   {"met", c.met}, {"where", c.where}});
+    out.push_back({{"name", c.name},
+                   {"value", c.value},
+                   {"limit", c.limit},
+                   {"unit", c.unit},
+                   {"met", c.met},
+                   {"where", c.where}});
   }
   return out;
 }
 
-std::string MetricsTable(const MeasureSubject& subject, const Metrics* source, const Metrics& result,
-                         const std::vector<RequirementCheck>& checks) {
+std::string MetricsTable(const MeasureSubject& subject, const Metrics* source,
+                         const Metrics& result, const std::vector<RequirementCheck>& checks) {
   std::string out = fmt::format("{:<34}{:>12}{:>12}\n", "", source ? "source" : "", "result");
   const auto row = [&](const std::string& name, const std::string& unit, auto value) {
     const std::string before = source ? fmt::format("{:.2f}", value(*source)) : "";
-    out += fmt::format("{:<34}{:>12}{:>12} {}\n", name, before, fmt::format("{:.2f}", value(result)), unit);
+    out += fmt::format("{:<34}{:>12}{:>12} {}\n", name, before,
+                       fmt::format("{:.2f}", value(result)), unit);
   };
   row("tangles kept", "% of frames", [](const Metrics& m) { return m.tangle_kept_percent; });
   row("smallest s GLI, also between frames", "turns",
       [](const Metrics& m) { return std::min(m.smallest_gli, m.smallest_gli_between); });
-  row("pass-throughs", "", [](const Metrics& m) { return static_cast<double>(m.pass_throughs.size()); });
+  row("pass-throughs", "",
+      [](const Metrics& m) { return static_cast<double>(m.pass_throughs.size()); });
   row("deepest penetration", "cm",
       [](const Metrics& m) { return 100 * std::max(m.penetration_m, m.penetration_between_m); });
-  row("penetration over 1 cm", "% of frames", [](const Metrics& m) { return m.penetration_over_1cm_percent; });
+  row("penetration over 1 cm", "% of frames",
+      [](const Metrics& m) { return m.penetration_over_1cm_percent; });
   if (!result.hold_m.empty()) {
-    row("hold error", "cm", [](const Metrics& m) {
-      return 100 * *std::max_element(m.hold_m.begin(), m.hold_m.end());
-    });
+    row("hold error", "cm",
+        [](const Metrics& m) { return 100 * *std::max_element(m.hold_m.begin(), m.hold_m.end()); });
   }
   for (int f = 0; f < 2; ++f) {
     const std::string who = std::string(" ") + kFigure[f];
@@ -240,12 +247,15 @@ std::string MetricsTable(const MeasureSubject& subject, const Metrics* source, c
       row(name + who, unit, [&](const Metrics& m) { return value(m.figure[f]); });
     };
     figure("foot drift", "cm", [](const FigureMetrics& m) { return 100 * m.foot_drift_m; });
-    figure("foot speed over 1 cm/s", "% of stance", [](const FigureMetrics& m) { return m.foot_speed_over_1cm_percent; });
+    figure("foot speed over 1 cm/s", "% of stance",
+           [](const FigureMetrics& m) { return m.foot_speed_over_1cm_percent; });
     figure("below the floor", "cm", [](const FigureMetrics& m) { return 100 * m.floor_m; });
-    figure("self-penetration", "cm", [](const FigureMetrics& m) { return 100 * m.self_penetration_m; });
+    figure("self-penetration", "cm",
+           [](const FigureMetrics& m) { return 100 * m.self_penetration_m; });
     figure("pose error", "cm", [](const FigureMetrics& m) { return m.pose_error_cm; });
     figure("joint edit", "deg", [](const FigureMetrics& m) { return m.joint_edit_deg; });
-    figure("jerk, to the larger source", "x", [](const FigureMetrics& m) { return m.jerk_ratio_larger; });
+    figure("jerk, to the larger source", "x",
+           [](const FigureMetrics& m) { return m.jerk_ratio_larger; });
   }
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
     const Tangle& t = subject.tangles[k].tag.tangle;

@@ -33,8 +33,8 @@ Json SubjectJson(const MeasureSubject& subject, const Metrics& result);
 MeasureSubject SubjectFromJson(const Json& report, const std::string& path);
 
 // "metric | source | result | required", one line each, with what is missed marked.
-std::string MetricsTable(const MeasureSubject& subject, const Metrics* source, const Metrics& result,
-                         const std::vector<RequirementCheck>& checks);
+std::string MetricsTable(const MeasureSubject& subject, const Metrics* source,
+                         const Metrics& result, const std::vector<RequirementCheck>& checks);
 Json ChecksJson(const std::vector<RequirementCheck>& checks);
 
 }  // namespace retarget

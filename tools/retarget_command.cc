@@ -37,8 +37,8 @@ FrameRange ParseFrames(const std::string& text, int available) {
     throw InputError(fmt::format("--frames {}: expected i:j with 0 <= i < j", text));
   }
   if (last > available) {
-    throw InputError(fmt::format("--frames {}: the clips have {} common output frames from their starts",
-                                 text, available));
+    throw InputError(fmt::format(
+        "--frames {}: the clips have {} common output frames from their starts", text, available));
   }
   return {first, last};
 }
@@ -73,9 +73,9 @@ Job LoadJob(const RetargetOptions& options) {
   }
   const double at = std::round(options.template_at * options.fps) - job.frames.first;
   if (at < 0 || at >= job.frames.last - job.frames.first) {
-    throw InputError(fmt::format("--template-at {}: lies outside the solved frames ({:.3f} to {:.3f} s)",
-                                 options.template_at, job.frames.first / options.fps,
-                                 (job.frames.last - 1) / options.fps));
+    throw InputError(fmt::format(
+        "--template-at {}: lies outside the solved frames ({:.3f} to {:.3f} s)",
+        options.template_at, job.frames.first / options.fps, (job.frames.last - 1) / options.fps));
   }
   job.input.template_frame = static_cast<int>(at);
   return job;
@@ -124,10 +124,10 @@ WrittenRig WriteRig(const Job& job, const RetargetResult& result, int f, const M
   const LoadedClip& clip = job.clip[f];
   const double start = clip.options.start + job.frames.first / result.scene.fps();
   const Placement& placement = result.placement[f];
-  const RigMotion motion =
-      WriteBack(clip.file.motion, *clip.binding, start,
-                [&](const Pose& pose) { return Placed(pose, placement); }, result.scene.source[f],
-                result.solved[f]);
+  const RigMotion motion = WriteBack(
+      clip.file.motion, *clip.binding, start,
+      [&](const Pose& pose) { return Placed(pose, placement); }, result.scene.source[f],
+      result.solved[f]);
   WrittenRig out;
   out.bytes = FormatBvh(clip.file, motion, clip.binding->stature_ratio());
   for (int n = 0; n < job.input.body[f].num_nodes(); ++n) {
@@ -150,16 +150,15 @@ Json InputsJson(const RetargetOptions& options, const Job& job) {
   Json inputs;
   for (int f = 0; f < 2; ++f) {
     const LoadedClip& clip = job.clip[f];
-    inputs["clip_" + std::string(kFigure[f])] = {
-        {"file", clip.options.path},
-        {"hash", clip.hash},
-        {"profile", clip.facts.map.profile},
-        {"units", clip.facts.metres_per_unit},
-        {"up", std::string(1, clip.facts.up)},
-        {"start_s", clip.options.start},
-        {"skip_frames", clip.options.skip_frames},
-        {"t_pose_frames", clip.facts.t_pose_frames},
-        {"notes", clip.facts.notes}};
+    inputs["clip_" + std::string(kFigure[f])] = {{"file", clip.options.path},
+                                                 {"hash", clip.hash},
+                                                 {"profile", clip.facts.map.profile},
+                                                 {"units", clip.facts.metres_per_unit},
+                                                 {"up", std::string(1, clip.facts.up)},
+                                                 {"start_s", clip.options.start},
+                                                 {"skip_frames", clip.options.skip_frames},
+                                                 {"t_pose_frames", clip.facts.t_pose_frames},
+                                                 {"notes", clip.facts.notes}};
   }
   inputs["template"] = {{"file", options.template_path},
                         {"hash", HashOf(ReadFile(options.template_path))},
@@ -172,14 +171,21 @@ Json InputsJson(const RetargetOptions& options, const Job& job) {
 Json SolveJson(const RetargetResult& result) {
   Json history = Json::array();
   for (const Iteration& i : result.solve.history) {
-    history.push_back({{"stage", i.stage}, {"iteration", i.index}, {"cost", i.cost},
-                       {"step_m", i.step_m}, {"smallest_gli", i.smallest_gli},
+    history.push_back({{"stage", i.stage},
+                       {"iteration", i.index},
+                       {"cost", i.cost},
+                       {"step_m", i.step_m},
+                       {"smallest_gli", i.smallest_gli},
                        {"deepest_penetration_m", i.deepest_penetration_m},
-                       {"hold_error_m", i.hold_error_m}, {"seconds", i.seconds}});
+                       {"hold_error_m", i.hold_error_m},
+                       {"seconds", i.seconds}});
   }
   Json terms = Json::array();
   for (const TermCost& c : result.costs) {
-    terms.push_back({{"term", c.name}, {"unit", c.unit}, {"weight", c.weight}, {"cost", c.cost},
+    terms.push_back({{"term", c.name},
+                     {"unit", c.unit},
+                     {"weight", c.weight},
+                     {"cost", c.cost},
                      {"largest", c.largest}});
   }
   constexpr const char* kStatus[] = {"converged", "iteration limit", "time limit", "interrupted"};
@@ -213,8 +219,9 @@ int RunRetarget(const RetargetOptions& options) {
   // Read, map onto the body, resample.
   const Settings settings = EffectiveSettings(options);
   const Job job = LoadJob(options);
-  OutputSet output(options.out, {"scene.glb", "source.glb", "a.bvh", "b.bvh", "report.json", "config.yaml"},
-                   {options.clip[0].path, options.clip[1].path, options.template_path}, options.force);
+  OutputSet output(
+      options.out, {"scene.glb", "source.glb", "a.bvh", "b.bvh", "report.json", "config.yaml"},
+      {options.clip[0].path, options.clip[1].path, options.template_path}, options.force);
   TellNotes(job);
 
   // Fit the template, find tangles and contacts, place, start, solve.
@@ -239,12 +246,15 @@ int RunRetarget(const RetargetOptions& options) {
     checks.push_back({std::string("write-back ") + kFigure[f], rig[f].error_m, kWriteBackLimit, "m",
                       rig[f].error_m <= kWriteBackLimit, ""});
   }
-  const bool all_met = std::all_of(checks.begin(), checks.end(),
-                                   [](const RequirementCheck& c) { return c.met; });
+  const bool all_met =
+      std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
   const int exit_code = ExitCodeOf(result.solve.status, all_met);
 
   // Report and write.
-  Json report = {{"generator", kGenerator}, {"format", 1}, {"exit_code", exit_code}, {"requirements_met", all_met}};
+  Json report = {{"generator", kGenerator},
+                 {"format", 1},
+                 {"exit_code", exit_code},
+                 {"requirements_met", all_met}};
   report["inputs"] = InputsJson(options, job);
   report["frames"] = result.scene.num_frames();
   report["fps"] = result.scene.fps();
@@ -277,7 +287,8 @@ int RunRetarget(const RetargetOptions& options) {
                        {"solve_s", result.solve.seconds},
                        {"frames_per_s", result.scene.num_frames() / result.solve.seconds}};
   report["memory"] = {{"peak_bytes", PeakBytes()}};
-  report["versions"] = {{"retarget", kVersion}, {"kernels", KernelName()},
+  report["versions"] = {{"retarget", kVersion},
+                        {"kernels", KernelName()},
                         {"threads", NumThreads(settings.solve.threads)}};
   VisitSettings(settings, [&](const std::string& key, const auto& value, auto&&...) {
     report["configuration"][key] = value;
@@ -295,10 +306,11 @@ int RunRetarget(const RetargetOptions& options) {
     return exit_code;
   }
   fmt::print("{}", MetricsTable(subject, &source_metrics, metrics, checks));
-  fmt::print("{} frames in {:.2f} s ({:.0f} frames/s, {} iterations), start {:.2f} s; written to {}\n",
-             result.scene.num_frames(), result.solve.seconds,
-             result.scene.num_frames() / result.solve.seconds, result.solve.iterations,
-             result.start_seconds, options.out);
+  fmt::print(
+      "{} frames in {:.2f} s ({:.0f} frames/s, {} iterations), start {:.2f} s; written to {}\n",
+      result.scene.num_frames(), result.solve.seconds,
+      result.scene.num_frames() / result.solve.seconds, result.solve.iterations,
+      result.start_seconds, options.out);
   fmt::print("{}\n", all_met ? "every requirement is met" : "a requirement is MISSED, see above");
   return exit_code;
 }

@@ -29,19 +29,23 @@ std::array<std::vector<Vec3>, 2> PositionsFromJson(const Json& json, const std::
   for (int f = 0; f < 2; ++f) {
     const char* key = f == 0 ? "A" : "B";
     if (!json.is_object() || !json.contains(key)) {
-      throw InputError(fmt::format("{}: expected {{\"A\": [[x, y, z] x {}], \"B\": ...}}, found no \"{}\"",
-                                   path, nodes, key));
+      throw InputError(
+          fmt::format("{}: expected {{\"A\": [[x, y, z] x {}], \"B\": ...}}, found no \"{}\"", path,
+                      nodes, key));
     }
     const Json& list = json.at(key);
     if (!list.is_array() || list.size() != nodes) {
       throw InputError(fmt::format("{}: \"{}\": expected {} node positions", path, key, nodes));
     }
     for (const Json& p : list) {
-      const bool good = p.is_array() && p.size() == 3 &&
-                        std::all_of(p.begin(), p.end(), [](const Json& x) { return x.is_number(); });
-      if (!good) throw InputError(fmt::format("{}: \"{}\": expected positions [x, y, z]", path, key));
+      const bool good =
+          p.is_array() && p.size() == 3 &&
+          std::all_of(p.begin(), p.end(), [](const Json& x) { return x.is_number(); });
+      if (!good)
+        throw InputError(fmt::format("{}: \"{}\": expected positions [x, y, z]", path, key));
       out[f].emplace_back(p[0], p[1], p[2]);
-      if (!out[f].back().allFinite()) throw InputError(fmt::format("{}: \"{}\": a position is not finite", path, key));
+      if (!out[f].back().allFinite())
+        throw InputError(fmt::format("{}: \"{}\": a position is not finite", path, key));
     }
   }
   return out;
@@ -130,17 +134,23 @@ int RunTemplateCheck(const std::string& path, bool json) {
   for (const Tag& tag : tangles.tags) {
     const std::string line = TangleLine(scene.body[0], scene.body[1], tag.tangle);
     if (std::abs(tag.tangle.gli) < 0.6) {
-      warnings.push_back(fmt::format("{} is weak: |GLI| {:.2f} is under 0.6", line, std::abs(tag.tangle.gli)));
+      warnings.push_back(
+          fmt::format("{} is weak: |GLI| {:.2f} is under 0.6", line, std::abs(tag.tangle.gli)));
     }
     if (tag.rho < 0.1) {
-      warnings.push_back(fmt::format("{} is easily lost: robustness radius {:.2f} is under 0.1", line, tag.rho));
+      warnings.push_back(
+          fmt::format("{} is easily lost: robustness radius {:.2f} is under 0.1", line, tag.rho));
     }
   }
   if (tangles.tags.empty()) warnings.push_back("nothing is tangled in this posture");
-  const bool met = std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
+  const bool met =
+      std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
   if (json) {
-    Json out = {{"name", posture.name}, {"requirements_met", met}, {"requirements", ChecksJson(checks)},
-                {"tags", Json::array()}, {"warnings", warnings}};
+    Json out = {{"name", posture.name},
+                {"requirements_met", met},
+                {"requirements", ChecksJson(checks)},
+                {"tags", Json::array()},
+                {"warnings", warnings}};
     for (const Tag& tag : tangles.tags) {
       out["tags"].push_back(TangleJson(scene.body[0], scene.body[1], tag.tangle));
       out["tags"].back()["rho"] = tag.rho;
@@ -151,14 +161,15 @@ int RunTemplateCheck(const std::string& path, bool json) {
   fmt::print("{}: {}\n", path, posture.name);
   for (int f = 0; f < 2; ++f) {
     const Body& body = posture.body[f];
-    fmt::print("{}: stature {:.2f} m, {} nodes, {} joints; feet {:.1f} cm below the floor, "
-               "self-penetration {:.1f} cm\n", f == 0 ? "a" : "b", body.stature, body.num_nodes(),
-               body.num_links() - 1, 100 * metrics.figure[f].floor_m,
-               100 * metrics.figure[f].self_penetration_m);
+    fmt::print(
+        "{}: stature {:.2f} m, {} nodes, {} joints; feet {:.1f} cm below the floor, "
+        "self-penetration {:.1f} cm\n",
+        f == 0 ? "a" : "b", body.stature, body.num_nodes(), body.num_links() - 1,
+        100 * metrics.figure[f].floor_m, 100 * metrics.figure[f].self_penetration_m);
   }
   for (const Tag& tag : tangles.tags) {
-    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n", TangleLine(scene.body[0], scene.body[1], tag.tangle),
-               tag.tangle.gli, tag.rho);
+    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n",
+               TangleLine(scene.body[0], scene.body[1], tag.tangle), tag.tangle.gli, tag.rho);
   }
   for (size_t k = 0; k < metrics.hold_m.size(); ++k) {
     fmt::print("hold {}: {:.1f} cm\n", k + 1, 100 * metrics.hold_m[k]);
@@ -166,7 +177,9 @@ int RunTemplateCheck(const std::string& path, bool json) {
   fmt::print("penetration: {:.1f} cm\n", 100 * metrics.penetration_m);
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   for (const RequirementCheck& c : checks) {
-    if (!c.met) fmt::print("MISSED {}: {:.4g} {}, required {:.4g} {}\n", c.name, c.value, c.unit, c.limit, c.where);
+    if (!c.met)
+      fmt::print("MISSED {}: {:.4g} {}, required {:.4g} {}\n", c.name, c.value, c.unit, c.limit,
+                 c.where);
   }
   return met ? kDone : kMissed;
 }
@@ -183,7 +196,8 @@ int RunTemplateFromClips(const FromClipsOptions& options) {
     }
     posture.body[f] = clip.binding->body();
     posture.pose[f] = clip.binding->PoseOf(motion.frames[options.frame]);
-    posture.supports[f] = StandingNodes(posture.body[f], PoseBody(posture.body[f], posture.pose[f]));
+    posture.supports[f] =
+        StandingNodes(posture.body[f], PoseBody(posture.body[f], posture.pose[f]));
   }
   posture.description = fmt::format("frame {} of {} and {}", options.frame, options.clip[0].path,
                                     options.clip[1].path);

@@ -20,13 +20,18 @@ RequirementCheck CheckWriteBack(const Json& written, const std::string& folder, 
   std::vector<NodeJoint> joints;
   for (const auto& [node, bone] : written.at("joints").items()) {
     const int joint = motion.rig.Find(bone.get<std::string>());
-    if (joint < 0) throw InputError(folder + "/" + file + ": has no joint " + bone.get<std::string>());
+    if (joint < 0)
+      throw InputError(folder + "/" + file + ": has no joint " + bone.get<std::string>());
     joints.push_back({body.FindNode(node), joint});
   }
   const std::string up = written.at("up");
   const double error = WriteBackError(motion, written.at("units"), up[0], joints, scene, f);
-  return {std::string("write-back ") + (f == 0 ? "a" : "b"), error, kWriteBackLimit, "m",
-          error <= kWriteBackLimit, file};
+  return {std::string("write-back ") + (f == 0 ? "a" : "b"),
+          error,
+          kWriteBackLimit,
+          "m",
+          error <= kWriteBackLimit,
+          file};
 }
 
 }  // namespace
@@ -68,15 +73,17 @@ int RunVerify(const std::string& folder, bool json) {
       throw InputError(report_path + ": " + error.what());
     }
     const double length = metrics.figure[f].length_error_percent;
-    checks.push_back({std::string("segment lengths ") + figure, length, 0.5, "%", length <= 0.5, ""});
+    checks.push_back(
+        {std::string("segment lengths ") + figure, length, 0.5, "%", length <= 0.5, ""});
   }
-  const bool all_met = std::all_of(checks.begin(), checks.end(),
-                                   [](const RequirementCheck& c) { return c.met; });
+  const bool all_met =
+      std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
   if (json) {
     const Json out = {{"requirements_met", all_met},
                       {"requirements", ChecksJson(checks)},
-                      {"metrics", {{"source", MetricsJson(subject, source_metrics)},
-                                   {"result", MetricsJson(subject, metrics)}}}};
+                      {"metrics",
+                       {{"source", MetricsJson(subject, source_metrics)},
+                        {"result", MetricsJson(subject, metrics)}}}};
     fmt::print("{}\n", out.dump(1));
   } else {
     fmt::print("{}", MetricsTable(subject, &source_metrics, metrics, checks));

@@ -15,7 +15,8 @@ std::vector<double> NodeRadii(const Body& body);
 
 class Ground : public Term {
  public:
-  explicit Ground(const Scene& scene) : radius_{NodeRadii(scene.body[0]), NodeRadii(scene.body[1])} {}
+  explicit Ground(const Scene& scene)
+      : radius_{NodeRadii(scene.body[0]), NodeRadii(scene.body[1])} {}
   const char* name() const override { return "ground"; }
   const char* unit() const override { return "m"; }
   void Evaluate(const Frame& frame, Rows* rows) const override;

@@ -18,9 +18,10 @@ void AddHeldPoint(const Frame& frame, const HoldPoint& point, const Vec3& at, in
 void EvaluateRotation(const Frame& frame, const Hold& hold, Rows* rows) {
   const Mat3& from = frame.posed[hold.from.figure].rotation[LinkOf(frame, hold.from)];
   const bool world = hold.to.figure == kWorld;
-  const Mat3 to = world ? Mat3(Mat3::Identity())
-                        : frame.posed[hold.to.figure].rotation[LinkOf(frame, hold.to)];
-  const Mat3 difference = hold.relative_rotation.toRotationMatrix().transpose() * to.transpose() * from;
+  const Mat3 to =
+      world ? Mat3(Mat3::Identity()) : frame.posed[hold.to.figure].rotation[LinkOf(frame, hold.to)];
+  const Mat3 difference =
+      hold.relative_rotation.toRotationMatrix().transpose() * to.transpose() * from;
   const Vec3 angle = LogSo3(Quat(difference));
   const Mat3 jacobian = RightJacobianInverse(angle) * from.transpose();
   for (int k = 0; k < 3; ++k) {

@@ -41,8 +41,8 @@ std::vector<LimitViolation> LimitViolations(const JointLimit& limit, const Quat&
     const double c = std::clamp(direction.dot(limit.swing_centre), -1.0, 1.0);
     const double s = std::sqrt(std::max(1 - c * c, 1e-12));
     const Vec3 by_direction = -limit.swing_centre / s;
-    out.push_back({std::acos(c) - limit.swing_max,
-                   DirectionGradient(rotation, limit.axis, by_direction)});
+    out.push_back(
+        {std::acos(c) - limit.swing_max, DirectionGradient(rotation, limit.axis, by_direction)});
   }
   if (limit.hinge_axis.squaredNorm() > 0) {
     const Vec3 ahead = limit.hinge_axis.cross(limit.axis);
@@ -69,8 +69,8 @@ void JointLimitTerm::Evaluate(const Frame& frame, Rows* rows) const {
     for (int l = 1; l < body.num_links(); ++l) {
       const JointLimit& limit = body.links[l].limit;
       const std::vector<LimitViolation> now = LimitViolations(limit, frame.pose[f].rotation[l]);
-      const bool any = std::any_of(now.begin(), now.end(),
-                                   [](const LimitViolation& v) { return v.beyond > 0; });
+      const bool any =
+          std::any_of(now.begin(), now.end(), [](const LimitViolation& v) { return v.beyond > 0; });
       if (!any) continue;
       const Quat& captured = frame.scene->source[f].frames[frame.t].rotation[l];
       const std::vector<LimitViolation> source = LimitViolations(limit, captured);

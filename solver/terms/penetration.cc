@@ -106,7 +106,8 @@ void SelfPenetration::Evaluate(const Frame& frame, Rows* rows) const {
       double depth = CapsuleDepth(closest, c[i].radius, c[j].radius);
       if (depth <= 0) continue;
       for (const Allowance& allowance : allowance_[frame.t]) {
-        if (allowance.figure == f && allowance.pair == static_cast<int>(k)) depth -= allowance.depth;
+        if (allowance.figure == f && allowance.pair == static_cast<int>(k))
+          depth -= allowance.depth;
       }
       if (depth > 0) AddDepthRow(frame, depth, closest, f, i, f, j, rows);
     }

@@ -21,8 +21,8 @@ class Smoothness {
   double HalfSquares(const MatX& edit, int first, int last, bool root) const;
   // Gradient of the cost by the coordinates of frame t is added to g. [coordinates]
   void AddGradient(const MatX& edit, int t, Eigen::Ref<VecX> g) const;
-  // Coefficient of the normal equations between frames t and t + lag (lag 0, 1, 2), to be multiplied
-  // by weight^2.
+  // Coefficient of the normal equations between frames t and t + lag (lag 0, 1, 2), to be
+  // multiplied by weight^2.
   static double StencilProduct(int num_frames, int t, int lag);
 
  private:

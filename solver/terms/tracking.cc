@@ -53,8 +53,9 @@ RootTracking::RootTracking(const Scene& scene) {
       // X_T X_clip(t0)^-1 X_clip(t), then into the partner's frame.
       const Quat start_inverse = start.rotation[0].conjugate();
       const Quat moved_rotation = self.rotation[0] * start_inverse * pose.rotation[0];
-      const Vec3 moved = self.root_position +
-                         self.rotation[0] * (start_inverse * (pose.root_position - start.root_position));
+      const Vec3 moved =
+          self.root_position +
+          self.rotation[0] * (start_inverse * (pose.root_position - start.root_position));
       relative_[f].push_back({partner_inverse * (moved - partner.root_position),
                               (partner_inverse * moved_rotation).normalized()});
     }
@@ -77,7 +78,8 @@ void RootTracking::EvaluateFollower(const Frame& frame, int figure, Rows* rows) 
   const Relative& relative = relative_[figure][frame.t];
   const Vec3& p = frame.posed[figure].centre[0];
   const Vec3& q = frame.posed[partner].centre[0];
-  const Mat3 target_rotation = frame.posed[partner].rotation[0] * relative.rotation.toRotationMatrix();
+  const Mat3 target_rotation =
+      frame.posed[partner].rotation[0] * relative.rotation.toRotationMatrix();
   const Vec3 target = q + frame.posed[partner].rotation[0] * relative.position;
   // A turn of the partner carries the target with it: d(R_target^T (p - target)) =
   // R_target^T (dp - dq + (p - q) x d omega).
@@ -91,8 +93,7 @@ void RootTracking::EvaluateFollower(const Frame& frame, int figure, Rows* rows) 
   const Mat3 difference = target_rotation.transpose() * frame.posed[figure].rotation[0];
   const Vec3 angle = LogSo3(Quat(difference));
   // log(D exp(w)) = log D + J_r^-1 w, w = R^T (d omega_self - d omega_partner).
-  const Mat3 jacobian =
-      RightJacobianInverse(angle) * frame.posed[figure].rotation[0].transpose();
+  const Mat3 jacobian = RightJacobianInverse(angle) * frame.posed[figure].rotation[0].transpose();
   for (int k = 0; k < 3; ++k) {
     const Vec3 g = jacobian.row(k).transpose();
     const int row = rows->Add(angle[k]);

@@ -14,11 +14,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json Golden(const std::string& name) { return Json::parse(ReadWholeFile(SharedPath("golden/" + name))); }
+Json Golden(const std::string& name) {
+  return Json::parse(ReadWholeFile(SharedPath("golden/" + name)));
+}
 
 Vec3 ToVec3(const Json& j) { return Vec3(j[0], j[1], j[2]); }
 
-double ToNumber(const Json& j) { return j.is_string() ? std::stod(j.get<std::string>()) : j.get<double>(); }
+double ToNumber(const Json& j) {
+  return j.is_string() ? std::stod(j.get<std::string>()) : j.get<double>();
+}
 
 // Largest gradient error relative to the largest gradient component.
 double GradientError(const SegmentGliGradient& got, const Json& expected) {
@@ -40,7 +44,8 @@ TEST(Golden, SegmentPairs) {
         SegmentGliWithGradient(ToVec3(p["a"]), ToVec3(p["b"]), ToVec3(p["c"]), ToVec3(p["d"]));
     EXPECT_NEAR(got.value, ToNumber(p["gli"]), 1e-12) << p["id"];
     EXPECT_LT(GradientError(got, p["grad"]), 1e-10) << p["id"];
-    EXPECT_EQ(got.value, SegmentGli(ToVec3(p["a"]), ToVec3(p["b"]), ToVec3(p["c"]), ToVec3(p["d"])));
+    EXPECT_EQ(got.value,
+              SegmentGli(ToVec3(p["a"]), ToVec3(p["b"]), ToVec3(p["c"]), ToVec3(p["d"])));
     ++checked;
   }
   EXPECT_EQ(checked, 100);
@@ -123,7 +128,8 @@ TEST(Golden, PosturesGiveTheLiteralAlgorithm1ListExactly) {
     }
     EXPECT_EQ(FindTanglesByDefinition(body, body, table).size(), expected.size());
     const PosedBody pa = PosedFromNodes(body, a), pb = PosedFromNodes(body, b);
-    for (const Tag& tag : ReduceTangles(body, pa, body, pb, FindTangles(body, body, table), table)) {
+    for (const Tag& tag :
+         ReduceTangles(body, pa, body, pb, FindTangles(body, body, table), table)) {
       std::printf("%s: (%s,%s) x (%s,%s) %.3f rho %.3f group %d\n",
                   posture["name"].get<std::string>().c_str(), names[tag.tangle.a.from].c_str(),
                   names[tag.tangle.a.to].c_str(), names[tag.tangle.b.from].c_str(),

@@ -14,7 +14,7 @@ struct RandomSystem {
   int frames, n;
   std::vector<AnchorSpan> spans;
   VecX stencil;
-  std::vector<MatX> jacobian;          // [rows x n] per frame
+  std::vector<MatX> jacobian;  // [rows x n] per frame
   std::vector<VecX> residual;
   std::vector<std::vector<int>> standing;
 
@@ -54,7 +54,8 @@ struct RandomSystem {
       j.middleCols(t * n, n) = jacobian[t];
       const long m = kAnchorSize * static_cast<long>(standing[t].size());
       for (long k = 0; k < m; ++k) {
-        j(jacobian[t].rows() - m + k, frames * n + kAnchorSize * standing[t][k / kAnchorSize] + k % kAnchorSize) = -1;
+        j(jacobian[t].rows() - m + k,
+          frames * n + kAnchorSize * standing[t][k / kAnchorSize] + k % kAnchorSize) = -1;
       }
       h += j.transpose() * j;
       g += j.transpose() * residual[t];
@@ -86,7 +87,8 @@ void Compare(int frames, int n, const std::vector<AnchorSpan>& spans, int thread
   }
   for (size_t k = 0; k < spans.size(); ++k) {
     for (int c = 0; c < kAnchorSize; ++c) {
-      EXPECT_NEAR(step.anchors(c, k), expected[frames * n + kAnchorSize * static_cast<long>(k) + c], 1e-6);
+      EXPECT_NEAR(step.anchors(c, k), expected[frames * n + kAnchorSize * static_cast<long>(k) + c],
+                  1e-6);
     }
   }
 }

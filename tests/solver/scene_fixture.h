@@ -73,7 +73,8 @@ inline Scene SmallScene(int frames, double size_rad, bool follow = false) {
   scene.posture = RoughHug(scene.body[0], scene.body[1]);
   for (int f = 0; f < 2; ++f) {
     scene.source[f] = Fidget(scene.body[f], scene.posture.pose[f], frames, 30, 7 + f, size_rad);
-    const int ankle = scene.body[f].FindNode("left_ankle"), toe = scene.body[f].FindNode("right_toe");
+    const int ankle = scene.body[f].FindNode("left_ankle"),
+              toe = scene.body[f].FindNode("right_toe");
     scene.contacts[f] = {{ankle, 0, frames / 2}, {toe, frames / 3, frames - 1}};
   }
   if (follow) scene.root[0] = RootLeader::kPartner;
@@ -87,8 +88,9 @@ inline Scene SmallScene(int frames, double size_rad, bool follow = false) {
   hands.to = {0, scene.body[0].FindNode("right_wrist"), Vec3::Zero()};
   const Mat3& from = posed[0].rotation[scene.body[0].nodes[hands.from.node].link];
   const Mat3& to = posed[0].rotation[scene.body[0].nodes[hands.to.node].link];
-  hands.to.offset = to.transpose() * (posed[0].node[hands.from.node] - posed[0].node[hands.to.node]) +
-                    Vec3(0.01, -0.02, 0.01);
+  hands.to.offset =
+      to.transpose() * (posed[0].node[hands.from.node] - posed[0].node[hands.to.node]) +
+      Vec3(0.01, -0.02, 0.01);
   hands.rotation = true;
   hands.relative_rotation = Quat(to.transpose() * from) * Turn(6, 4, -5);
   Hold to_world;

@@ -11,7 +11,8 @@ namespace retarget {
 namespace {
 
 constexpr double kStep = 1e-6;
-constexpr double kTolerance = 2e-7;  // relative to the row's largest entry, plus the same absolutely
+constexpr double kTolerance =
+    2e-7;  // relative to the row's largest entry, plus the same absolutely
 
 struct Checked {
   int rows = 0, entries = 0, nonzero = 0, skipped = 0;
@@ -42,7 +43,8 @@ MatX Jacobian(const Term& term, const Scene& scene, const Unknowns& u, int t) {
   j.topLeftCorner(m, n) = rows.jacobian();
   for (const auto& e : rows.anchors()) j(e.row, n + 2 * e.anchor + e.component) += e.value;
   for (size_t k = 0; k < rows.coordinates().size(); ++k) {
-    j(m + static_cast<long>(k), rows.coordinates()[k].coordinate) = rows.coordinates()[k].derivative;
+    j(m + static_cast<long>(k), rows.coordinates()[k].coordinate) =
+        rows.coordinates()[k].derivative;
   }
   return j;
 }

@@ -45,8 +45,8 @@ Outcome RunProgram(const Scratch& scratch, const std::string& arguments) {
 }
 
 const std::string kHold = ProjectPath("data/holds/bear_hug");
-const std::string kExample = "--clip-a " + kHold + "/a.bvh --clip-b " + kHold + "/b.bvh --template " +
-                             kHold + "/template.yaml";
+const std::string kExample = "--clip-a " + kHold + "/a.bvh --clip-b " + kHold +
+                             "/b.bvh --template " + kHold + "/template.yaml";
 
 int Lines(const std::string& text) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
@@ -72,7 +72,8 @@ TEST(Cli, BadUsageAndInputGiveOneLineAndExitCode2) {
       {kExample + " --set solve.stages=banana" + out, "solve.stages"},
       {kExample + " --config " + bad_config + out, "c.yaml:2"},
       {kExample + " --config /nowhere/c.yaml" + out, "/nowhere/c.yaml"},
-      {"--clip-a " + not_bvh + " --clip-b " + kHold + "/b.bvh --template " + kHold + "/template.yaml" + out,
+      {"--clip-a " + not_bvh + " --clip-b " + kHold + "/b.bvh --template " + kHold +
+           "/template.yaml" + out,
        "x.bvh:5"},
       {"map " + not_bvh, "x.bvh:5"},
       {"map /nowhere.bvh", "/nowhere.bvh"},
@@ -81,13 +82,15 @@ TEST(Cli, BadUsageAndInputGiveOneLineAndExitCode2) {
       {"tangles " + scratch.Write("p.json", "{\"A\": [[1,2]]}"), "\"A\""},
       {"verify " + (scratch / "nothing"), "report.json"},
       {"template --from-clips " + kHold + "/a.bvh " + kHold + "/b.bvh --frame 9999 --out " +
-           (scratch / "t.yaml"), "--frame 9999"},
+           (scratch / "t.yaml"),
+       "--frame 9999"},
       {"template", "expected --check"},
   };
   for (const auto& c : cases) {
     const Outcome outcome = RunProgram(scratch, c.arguments);
     EXPECT_EQ(outcome.code, 2) << c.arguments << "\n" << outcome.err;
-    EXPECT_NE(outcome.err.find(c.expected), std::string::npos) << c.arguments << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find(c.expected), std::string::npos) << c.arguments << "\n"
+                                                               << outcome.err;
     EXPECT_EQ(Lines(outcome.err), 1) << outcome.err;
     EXPECT_EQ(outcome.out, "") << c.arguments;
     EXPECT_FALSE(fs::exists(scratch / "out")) << c.arguments;
@@ -112,7 +115,9 @@ TEST(Cli, RetargetsTheExampleVerifiesItAndNoticesDamage) {
   for (const Json& t : report["tangles"]) {
     EXPECT_GT(t["min_signed_gli"], 0.5);
     EXPECT_EQ(t["frames_below_half"], 0);
-    const auto arm = [](const std::string& n) { return n.ends_with("hand") || n.ends_with("wrist"); };
+    const auto arm = [](const std::string& n) {
+      return n.ends_with("hand") || n.ends_with("wrist");
+    };
     arms_round_trunk |= arm(t["a"][0]) && arm(t["a"][1]);
   }
   EXPECT_TRUE(arms_round_trunk);
@@ -128,14 +133,15 @@ TEST(Cli, RetargetsTheExampleVerifiesItAndNoticesDamage) {
 
   // The effective configuration repeats the run, byte for byte.
   const Outcome repeated = RunProgram(scratch, kExample + " --frames 0:90 --config " + folder +
-                                            "/config.yaml --out " + (scratch / "again"));
+                                                   "/config.yaml --out " + (scratch / "again"));
   EXPECT_EQ(repeated.code, 0) << repeated.err;
   EXPECT_EQ(ReadWholeFile(folder + "/scene.glb"), ReadWholeFile(scratch / "again/scene.glb"));
   EXPECT_EQ(ReadWholeFile(folder + "/a.bvh"), ReadWholeFile(scratch / "again/a.bvh"));
   EXPECT_EQ(ReadWholeFile(folder + "/config.yaml"), ReadWholeFile(scratch / "again/config.yaml"));
 
   // The source in the result's place is no solution, and verify says so.
-  fs::copy_file(folder + "/source.glb", folder + "/scene.glb", fs::copy_options::overwrite_existing);
+  fs::copy_file(folder + "/source.glb", folder + "/scene.glb",
+                fs::copy_options::overwrite_existing);
   const Outcome missed = RunProgram(scratch, "verify " + folder);
   EXPECT_EQ(missed.code, 3);
   EXPECT_NE(missed.out.find("MISSED"), std::string::npos);
@@ -145,16 +151,16 @@ TEST(Cli, RetargetsTheExampleVerifiesItAndNoticesDamage) {
 
 TEST(Cli, LimitsGiveExitCode4AndTheBestSoFar) {
   const Scratch scratch;
-  const Outcome run = RunProgram(scratch, kExample + " --frames 0:40 --set solve.max_iterations=1 --out " +
-                                       (scratch / "out"));
+  const Outcome run = RunProgram(
+      scratch, kExample + " --frames 0:40 --set solve.max_iterations=1 --out " + (scratch / "out"));
   EXPECT_EQ(run.code, 4) << run.err;
   EXPECT_TRUE(fs::exists(scratch / "out/scene.glb"));
 }
 
 TEST(Cli, MissedRequirementsGiveExitCode3) {
   const Scratch scratch;
-  const Outcome run = RunProgram(scratch, kExample + " --frames 0:40 --set requirements.gli=1.5 --out " +
-                                       (scratch / "out"));
+  const Outcome run = RunProgram(
+      scratch, kExample + " --frames 0:40 --set requirements.gli=1.5 --out " + (scratch / "out"));
   EXPECT_EQ(run.code, 3) << run.err;
   EXPECT_NE(run.out.find("MISSED tangle 1"), std::string::npos);
 }
@@ -162,8 +168,8 @@ TEST(Cli, MissedRequirementsGiveExitCode3) {
 TEST(Cli, NothingOfTheUsersIsOverwritten) {
   const Scratch scratch;
   const std::string a = scratch.Write("a.bvh", ReadWholeFile(kHold + "/a.bvh"));
-  const std::string arguments = "--clip-a " + a + " --clip-b " + kHold + "/b.bvh --template " + kHold +
-                                "/template.yaml --frames 0:10 --out " + (scratch / "");
+  const std::string arguments = "--clip-a " + a + " --clip-b " + kHold + "/b.bvh --template " +
+                                kHold + "/template.yaml --frames 0:10 --out " + (scratch / "");
   EXPECT_EQ(RunProgram(scratch, arguments).code, 2);
   EXPECT_EQ(RunProgram(scratch, arguments + " --force").code, 2);  // not even then: it is an input
   EXPECT_EQ(ReadWholeFile(a), ReadWholeFile(kHold + "/a.bvh"));
@@ -176,7 +182,8 @@ TEST(Cli, NothingOfTheUsersIsOverwritten) {
 
 TEST(Cli, TanglesMapConfigAndTemplate) {
   const Scratch scratch;
-  const Json tangles = Json::parse(RunProgram(scratch, "tangles --json " + kHold + "/template.yaml").out);
+  const Json tangles =
+      Json::parse(RunProgram(scratch, "tangles --json " + kHold + "/template.yaml").out);
   EXPECT_GT(tangles["literal"].size(), tangles["tags"].size());
   EXPECT_TRUE(tangles["tags"][0].contains("rho"));
   const Json map = Json::parse(RunProgram(scratch, "map --json " + kHold + "/a.bvh").out);
@@ -187,7 +194,8 @@ TEST(Cli, TanglesMapConfigAndTemplate) {
   EXPECT_NE(config.out.find("tangle: 7"), std::string::npos);
   EXPECT_EQ(RunProgram(scratch, "template --check " + kHold + "/template.yaml").code, 0);
   const std::string made = scratch / "made.yaml";
-  const std::string make = "template --from-clips " + kHold + "/a.bvh " + kHold + "/b.bvh --frame 12 --out " + made;
+  const std::string make =
+      "template --from-clips " + kHold + "/a.bvh " + kHold + "/b.bvh --frame 12 --out " + made;
   EXPECT_EQ(RunProgram(scratch, make).code, 0);
   EXPECT_EQ(RunProgram(scratch, make).code, 2);  // is there already
   EXPECT_NE(ReadWholeFile(made).find("lengths"), std::string::npos);
@@ -199,7 +207,8 @@ TEST(Cli, GoldenPosturesGiveTheirListsThroughTheCommandLine) {
   int checked = 0;
   for (const Json& posture : Json::parse(ReadWholeFile(SharedPath("golden/postures.json")))) {
     const Json positions = {{"A", posture["A"]}, {"B", posture["B"]}};
-    const Outcome run = RunProgram(scratch, "tangles --json " + scratch.Write("p.json", positions.dump()));
+    const Outcome run =
+        RunProgram(scratch, "tangles --json " + scratch.Write("p.json", positions.dump()));
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(Json::parse(run.out)["literal"].size(), posture["n_tangles"].get<size_t>());
     ++checked;
@@ -215,8 +224,8 @@ TEST(Cli, TheValidatorAcceptsWhatIsWritten) {
   const Scratch scratch;
   ASSERT_EQ(RunProgram(scratch, kExample + " --frames 0:20 --out " + (scratch / "out")).code, 0);
   const std::string command = "node " + ProjectPath("tests/tools/validate_glb.mjs") + " " +
-                              (scratch / "out/scene.glb") + " " + (scratch / "out/source.glb") + " >" +
-                              (scratch / "v.json");
+                              (scratch / "out/scene.glb") + " " + (scratch / "out/source.glb") +
+                              " >" + (scratch / "v.json");
   const int status = std::system(command.c_str());
   if (WEXITSTATUS(status) == 3) GTEST_SKIP() << "gltf-validator is not installed";
   EXPECT_EQ(WEXITSTATUS(status), 0) << ReadWholeFile(scratch / "v.json");

@@ -11,9 +11,10 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(House, IncludesFollowTheFolders) {
-  const std::map<std::string, std::string> may_include = {
-      {"model", "model"}, {"solver", "model|solver"}, {"io", "model|io"},
-      {"tools", "model|solver|io|tools"}};
+  const std::map<std::string, std::string> may_include = {{"model", "model"},
+                                                          {"solver", "model|solver"},
+                                                          {"io", "model|io"},
+                                                          {"tools", "model|solver|io|tools"}};
   const std::regex include("#include \"(model|solver|io|tools|tests|data)/");
   int checked = 0;
   for (const auto& [folder, allowed] : may_include) {
@@ -37,8 +38,8 @@ TEST(House, EachLibraryLivesInFewFiles) {
     const char* folder;  // the only one that may use it
     int most_files;
   } libraries[] = {{"#include <ceres/", "solver", 1}, {"#include <mujoco", "solver", 2},
-                   {"#include <tiny_gltf", "io", 2}, {"#include <glm/", "io", 2},
-                   {"#include <yaml-cpp", "io", 1}, {"#include <CLI/", "tools", 1}};
+                   {"#include <tiny_gltf", "io", 2},  {"#include <glm/", "io", 2},
+                   {"#include <yaml-cpp", "io", 1},   {"#include <CLI/", "tools", 1}};
   for (const auto& library : libraries) {
     std::vector<std::string> users;
     for (const char* folder : {"model", "solver", "io", "tools"}) {

@@ -16,7 +16,8 @@ std::vector<std::string> RealClips() {
       if (entry.path().extension() == ".bvh") clips.push_back(entry.path().string());
     }
   }
-  for (const char* name : {"mixed_rotation_orders", "standard_skeleton_1frame", "lafan_zero_frame0"}) {
+  for (const char* name :
+       {"mixed_rotation_orders", "standard_skeleton_1frame", "lafan_zero_frame0"}) {
     clips.push_back(SharedPath(std::string("data/odd_bvh/") + name + ".bvh"));
   }
   std::sort(clips.begin(), clips.end());
@@ -35,12 +36,13 @@ Bound Bind(const std::string& path, int most_frames, double stature = 0) {
   auto& frames = bound.file.motion.frames;
   // Past the calibration poses at the start, which the salsa files blend out of over six frames.
   if (frames.size() > 8) frames.erase(frames.begin(), frames.begin() + 7);
-  if (frames.size() > static_cast<size_t>(most_frames)) frames.resize(static_cast<size_t>(most_frames));
+  if (frames.size() > static_cast<size_t>(most_frames))
+    frames.resize(static_cast<size_t>(most_frames));
   RecogniseOptions options;
   if (path.find("pairs") != std::string::npos) options.metres_per_unit = 1.35;
   bound.facts = Recognise(bound.file.motion, options, path);
-  bound.binding = std::make_unique<RigBinding>(bound.file.motion, bound.facts,
-                                               ChestBone(bound.file.motion, bound.facts.map), stature);
+  bound.binding = std::make_unique<RigBinding>(
+      bound.file.motion, bound.facts, ChestBone(bound.file.motion, bound.facts.map), stature);
   return bound;
 }
 
@@ -56,14 +58,16 @@ TEST(WriteBack, IdentityReturnsEveryRealClip) {
     for (int k = 0; k < frames; ++k) {
       clip.frames.push_back(bound.binding->PoseOf(SampleRig(captured, k / clip.fps)));
     }
-    const RigMotion back = WriteBack(captured, *bound.binding, 0, [](const Pose& p) { return p; }, clip, clip);
+    const RigMotion back = WriteBack(
+        captured, *bound.binding, 0, [](const Pose& p) { return p; }, clip, clip);
     const RigMotion read = ParseBvh(FormatBvh(bound.file, back), "back").motion;
     ASSERT_GE(read.num_frames(), 1) << path;
     for (int k = 0; k < read.num_frames(); ++k) {
       const PosedRig before = PoseRig(captured.rig, captured.frames[k]);
       const PosedRig after = PoseRig(read.rig, read.frames[k]);
       for (size_t j = 0; j < before.position.size(); ++j) {
-        ASSERT_LT(bound.facts.metres_per_unit * (before.position[j] - after.position[j]).norm(), 1e-4)
+        ASSERT_LT(bound.facts.metres_per_unit * (before.position[j] - after.position[j]).norm(),
+                  1e-4)
             << path << " frame " << k << " " << captured.rig.joints[j].name;
         ASSERT_LT(before.rotation[j].angularDistance(after.rotation[j]), 0.01 * kDegree)
             << path << " frame " << k << " " << captured.rig.joints[j].name;
@@ -74,13 +78,14 @@ TEST(WriteBack, IdentityReturnsEveryRealClip) {
   EXPECT_GT(checked, 20000);
 }
 
-// The body's nodes are where the rig's joints are: exactly where one bone carries them, and within a
-// centimetre where a flexible spine stands between (root-relative).
+// The body's nodes are where the rig's joints are: exactly where one bone carries them, and within
+// a centimetre where a flexible spine stands between (root-relative).
 TEST(RigBinding, NodesStandAtTheJointsOfEveryRealClip) {
   SKIP_WITHOUT_SHARED_DATA();
   int checked = 0;
   for (const std::string& path : RealClips()) {
-    if (path.find("salsa_10/60") != std::string::npos) continue;  // its limbs change length (README)
+    if (path.find("salsa_10/60") != std::string::npos)
+      continue;  // its limbs change length (README)
     const Bound bound = Bind(path, 300);
     const Body& body = bound.binding->body();
     for (int k = 0; k < bound.file.motion.num_frames(); k += 7) {
@@ -107,8 +112,8 @@ TEST(RigBinding, AppliedPosesComeBack) {
   const Body& body = bound.binding->body();
   pose.root_position += Vec3(0.3, -0.02, 0.1);
   pose.rotation[0] = YawRotation(0.4) * pose.rotation[0];
-  for (const char* name : {"chest", "head", "left_shoulder", "left_elbow", "right_hip", "right_knee",
-                           "left_ankle", "right_wrist"}) {
+  for (const char* name : {"chest", "head", "left_shoulder", "left_elbow", "right_hip",
+                           "right_knee", "left_ankle", "right_wrist"}) {
     Quat& q = pose.rotation[body.FindLink(name)];
     q = q * ExpSo3(Vec3(0.1, -0.05, 0.08));
   }
