@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that a build needs; with --tests also what the tests need.
+# Installs the Debian packages that a build needs; with --tests or --bench also what those need.
 # Does nothing where they are there already.
 set -euo pipefail
 
@@ -10,6 +10,8 @@ if [[ ${1:-} == --tests ]]; then
   command -v node >/dev/null || packages+=(nodejs)
   command -v npm >/dev/null || packages+=(npm)
 fi
+
+[[ ${1:-} == --bench ]] && packages+=(libbenchmark-dev python3)
 
 missing=()
 for package in "${packages[@]}"; do

@@ -5,6 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${BUILD:-build/bench}
 hold=data/holds/bear_hug
+tools/setup.sh --bench
 cmake -S . -B "$build" -G Ninja -DRETARGET_BENCH=ON -DRETARGET_TESTS=OFF >/dev/null
 cmake --build "$build" -j "${JOBS:-$(nproc)}"
 
