@@ -1,6 +1,6 @@
 // Writes the scene: figures with their motion as one binary glTF 2.0 file.
 //
-// Contract (DESIGN.md section 1; other programs read the file by it). For a figure "a":
+// Contract (other programs read the file by it). For a figure "a":
 //  - nodes "a/<node>" for all nodes of the body. "a/root" carries link 0, and alone has a
 //    translation track. Every other node is a child of the glTF node that carries its link, at the
 //    node's offset.

@@ -57,6 +57,13 @@ MatX SegmentGliTable(const Body& a, const std::vector<Vec3>& nodes_a, const Body
   return table;
 }
 
+std::vector<Vec3> PointsOn(const std::vector<Vec3>& position, const std::vector<int>& nodes) {
+  std::vector<Vec3> points;
+  points.reserve(nodes.size());
+  for (const int n : nodes) points.push_back(position[n]);
+  return points;
+}
+
 double PolylineGli(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
   double sum = 0;
   for (size_t i = 0; i + 1 < p.size(); ++i) {
@@ -66,8 +73,13 @@ double PolylineGli(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
 }
 
 PathGli PolylineGliWithGradient(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
-  PathGli out;
+  PathGli out = PolylineGliGradient(p, q);
   out.value = PolylineGli(p, q);
+  return out;
+}
+
+PathGli PolylineGliGradient(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
+  PathGli out;
   out.gradient_p.assign(p.size(), Vec3::Zero());
   out.gradient_q.assign(q.size(), Vec3::Zero());
   // Seen from an end of q the corner vectors are (p_i - eye); seen from an end of p they are

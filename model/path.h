@@ -27,6 +27,9 @@ Eigen::VectorXi SignsOf(const Body& body, const Path& path);
 MatX SegmentGliTable(const Body& a, const std::vector<Vec3>& nodes_a, const Body& b,
                      const std::vector<Vec3>& nodes_b);
 
+// The points of a polyline: positions of the nodes that a path visits.
+std::vector<Vec3> PointsOn(const std::vector<Vec3>& position, const std::vector<int>& nodes);
+
 // GLI (turns) of two polylines and its gradient with respect to their points (turns per metre).
 // All terms at interior points cancel between neighbouring segments: what is left are the segments
 // of one polyline seen from the two end points of the other, 2 (m + n) edge vectors in place of
@@ -37,6 +40,8 @@ struct PathGli {
   std::vector<Vec3> gradient_q;
 };
 double PolylineGli(const std::vector<Vec3>& p, const std::vector<Vec3>& q);
+// The gradients alone; `value` is left 0.
+PathGli PolylineGliGradient(const std::vector<Vec3>& p, const std::vector<Vec3>& q);
 PathGli PolylineGliWithGradient(const std::vector<Vec3>& p, const std::vector<Vec3>& q);
 
 }  // namespace retarget

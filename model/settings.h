@@ -34,7 +34,7 @@ struct TangleSettings {
   int max_tags = 6;
 };
 
-// What a solved scene must show (DESIGN 1, 9).
+// What a solved scene must show (docs/metrics.md).
 struct Requirements {
   double gli = 0.5;  // turns, every tag, every instant
   int pass_throughs = 0;

@@ -58,12 +58,6 @@ double PathPairGli(const MatX& g, const Path& p, const Path& q) {
   return g(p.to, q.to) - g(p.from, q.to) - g(p.to, q.from) + g(p.from, q.from);
 }
 
-std::vector<Vec3> PointsOn(const Body& body, const PosedBody& posed, const Path& path) {
-  std::vector<Vec3> points;
-  for (const int n : NodesOn(body, path)) points.push_back(posed.node[n]);
-  return points;
-}
-
 // Squared norm of a gradient given at nodes, over the body's coordinates: the root's translation
 // and a turn about every joint centre (any orthonormal axes, so the world's).
 double CoordinateNorm2(const Body& body, const PosedBody& posed, const std::vector<int>& nodes,
@@ -170,10 +164,10 @@ PosedBody PosedFromNodes(const Body& body, const std::vector<Vec3>& nodes) {
 
 double TangleGradientNorm(const Body& a, const PosedBody& posed_a, const Body& b,
                           const PosedBody& posed_b, const Tangle& tangle) {
-  const PathGli gli =
-      PolylineGliWithGradient(PointsOn(a, posed_a, tangle.a), PointsOn(b, posed_b, tangle.b));
-  return std::sqrt(CoordinateNorm2(a, posed_a, NodesOn(a, tangle.a), gli.gradient_p) +
-                   CoordinateNorm2(b, posed_b, NodesOn(b, tangle.b), gli.gradient_q));
+  const std::vector<int> p = NodesOn(a, tangle.a), q = NodesOn(b, tangle.b);
+  const PathGli gli = PolylineGliGradient(PointsOn(posed_a.node, p), PointsOn(posed_b.node, q));
+  return std::sqrt(CoordinateNorm2(a, posed_a, p, gli.gradient_p) +
+                   CoordinateNorm2(b, posed_b, q, gli.gradient_q));
 }
 
 std::vector<Tag> ReduceTangles(const Body& a, const PosedBody& posed_a, const Body& b,

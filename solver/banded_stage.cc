@@ -6,14 +6,13 @@
 
 #include "solver/banded.h"
 #include "solver/guard.h"
-#include "solver/kernels.h"
+#include "solver/normal_equations.h"
 #include "solver/parallel.h"
 #include "solver/spacetime.h"
 
 namespace retarget {
 namespace {
 
-constexpr double kGuardReach = 0.25;  // m; pairs further apart cannot meet within a step
 constexpr double kLeastDamping = 1e-9;
 constexpr double kMostDamping = 1e5;  // only a cliff (a pass-through) lies ahead: no way on
 constexpr int kShortenings = 6;       // trials of one step
@@ -30,7 +29,7 @@ class BandedStage {
         threads_(NumThreads(problem_.settings().solve.threads)),
         frames_(static_cast<size_t>(std::max(threads_, 2))),
         rows_(frames_.size()),
-        spans_(Spans(scene_)),
+        spans_(AnchorSpans(scene_)),
         system_(scene_.num_frames(), spans_, problem_.smoothness().weight().array().square()),
         accepted_(static_cast<size_t>(scene_.num_frames())),
         trial_(accepted_.size()),
@@ -45,6 +44,7 @@ class BandedStage {
     double cost = EvaluateTrial(result_->unknowns);
     Accept();
     double damping = settings.initial_damping;
+    result_->stalled = false;
     int flat = 0;      // iterations in a row that gained little
     int rejected = 0;  // linear solves in a row without a sound step
     for (int iterations = 0; iterations < context_.iterations_left;) {
@@ -55,7 +55,10 @@ class BandedStage {
       double next_cost = cost;
       if (!SolveLinear(result_->unknowns, damping) || !Shorten(cost, &next, &next_cost)) {
         damping *= 5;
-        if (++rejected > kMostRejections || damping > kMostDamping) return SolveStatus::kConverged;
+        if (++rejected > kMostRejections || damping > kMostDamping) {
+          result_->stalled = true;
+          return SolveStatus::kConverged;
+        }
         continue;
       }
       rejected = 0;
@@ -85,49 +88,10 @@ class BandedStage {
   }
 
  private:
-  static std::vector<AnchorSpan> Spans(const Scene& scene) {
-    std::vector<AnchorSpan> spans;
-    for (const auto& contacts : scene.contacts) {
-      for (const Contact& c : contacts) spans.push_back({c.first, c.last});
-    }
-    return spans;
-  }
-
-  // The normal equations of one frame.
   void Assemble(const Unknowns& x, int t, int thread, FrameBlock* block) {
-    const int n = scene_.num_coordinates();
-    Frame& frame = frames_[thread];
-    Rows& rows = rows_[thread];
-    frame.Set(scene_, x, t, true);
-    problem_.EvaluateFrame(frame, context_.contact_factor, true, &rows);
-    block->hessian.setZero(n, n);
-    block->gradient.setZero(n);
-    AddNormalEquations(rows.jacobian().data(), rows.residual().data(), rows.num_rows(), n,
-                       block->hessian.data(), block->gradient.data());
-    for (const Rows::CoordinateRow& c : rows.coordinates()) {
-      block->hessian(c.coordinate, c.coordinate) += c.derivative * c.derivative;
-      block->gradient[c.coordinate] += c.derivative * c.residual;
-    }
-    problem_.smoothness().AddGradient(x.edit, t, block->gradient);
-    block->anchors.clear();
-    for (const Rows::AnchorEntry& e : rows.anchors()) {
-      if (block->anchors.empty() || block->anchors.back() != e.anchor) {
-        block->anchors.push_back(e.anchor);
-      }
-    }
-    const long m = kAnchorSize * static_cast<long>(block->anchors.size());
-    block->anchor_coupling.setZero(m, n);
-    block->anchor_diagonal.setZero(m);
-    block->anchor_gradient.setZero(m);
-    long at = -1;
-    for (size_t k = 0; k < rows.anchors().size(); ++k) {
-      const Rows::AnchorEntry& e = rows.anchors()[k];
-      if (k == 0 || e.anchor != rows.anchors()[k - 1].anchor) ++at;
-      const long row = kAnchorSize * at + e.component;
-      block->anchor_coupling.row(row) += e.value * rows.jacobian().row(e.row);
-      block->anchor_diagonal[row] += e.value * e.value;
-      block->anchor_gradient[row] += e.value * rows.residual()[e.row];
-    }
+    frames_[thread].Set(scene_, x, t, true);
+    problem_.EvaluateFrame(frames_[thread], context_.contact_factor, true, &rows_[thread]);
+    FillBlock(problem_, rows_[thread], x.edit, t, block);
   }
 
   bool SolveLinear(const Unknowns& x, double damping) {

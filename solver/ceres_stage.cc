@@ -15,8 +15,7 @@
 namespace retarget {
 namespace {
 
-constexpr double kGuardReach = 0.25;  // m; pairs further apart cannot meet within a step
-constexpr int kBlock = 3;             // of a joint's edit
+constexpr int kBlock = 3;  // of a joint's edit
 constexpr int kAnchor = 2;
 constexpr double kFreeRadius = 1e3;  // of the trust region, over diag(J^T J)
 
@@ -288,6 +287,7 @@ class CeresStage {
     options.callbacks.push_back(&callback);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
+    result_->stalled = summary.termination_type == ceres::FAILURE;
     if (callback.status != SolveStatus::kConverged) return callback.status;
     return result_->iterations >= context_.iterations_left &&
                    summary.termination_type == ceres::NO_CONVERGENCE

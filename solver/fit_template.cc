@@ -15,13 +15,8 @@ constexpr int kMostSteps = 40;
 
 double GliOf(const TemplatePosture& posture, const std::array<PosedBody, 2>& posed,
              const Path& path_a, const Path& path_b) {
-  std::array<std::vector<Vec3>, 2> points;
-  for (int f = 0; f < 2; ++f) {
-    for (const int n : NodesOn(posture.body[f], f == 0 ? path_a : path_b)) {
-      points[f].push_back(posed[f].node[n]);
-    }
-  }
-  return PolylineGli(points[0], points[1]);
+  return PolylineGli(PointsOn(posed[0].node, NodesOn(posture.body[0], path_a)),
+                     PointsOn(posed[1].node, NodesOn(posture.body[1], path_b)));
 }
 
 std::array<PosedBody, 2> PosedFigures(const TemplatePosture& posture) {

@@ -14,6 +14,9 @@ namespace retarget {
 // Node positions of both figures in one frame (m).
 using NodePositions = std::array<std::vector<Vec3>, 2>;
 
+// Pairs of segments further apart than this cannot meet within one step of the solve (m).
+inline constexpr double kGuardReach = 0.25;
+
 struct GliJump {
   double size = 0;             // turns
   int node_a = 0, node_b = 0;  // the segments, by outer node

@@ -118,11 +118,9 @@ class Measurement {
   bool MeasureTangles(const PostureSample& now, int t, bool on_frame) {
     bool kept = true;
     for (size_t k = 0; k < paths_.size(); ++k) {
-      std::array<std::vector<Vec3>, 2> points;
-      for (int f = 0; f < 2; ++f) {
-        for (const int n : paths_[k][f]) points[f].push_back(now.node[f][n]);
-      }
-      const double gli = subject_.tangles[k].sign * PolylineGli(points[0], points[1]);
+      const double gli =
+          subject_.tangles[k].sign *
+          PolylineGli(PointsOn(now.node[0], paths_[k][0]), PointsOn(now.node[1], paths_[k][1]));
       TangleMetrics& m = out_.tangles[k];
       m.min_signed_gli_between = std::min(m.min_signed_gli_between, gli);
       if (!on_frame) continue;
@@ -336,6 +334,10 @@ MeasureSubject SubjectOf(const Scene& scene) {
 
 Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const MotionView& source) {
   return Measurement(subject, motion, source).Run();
+}
+
+bool AllMet(const std::vector<RequirementCheck>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
 }
 
 std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject, const Metrics& m,

@@ -96,6 +96,7 @@ struct RequirementCheck {
   bool met = true;
   std::string where;
 };
+bool AllMet(const std::vector<RequirementCheck>& checks);
 std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject,
                                                 const Metrics& metrics,
                                                 const Requirements& requirements);

@@ -6,12 +6,11 @@
 
 #include "solver/guard.h"
 #include "solver/kernels.h"
+#include "solver/normal_equations.h"
 #include "solver/parallel.h"
 
 namespace retarget {
 namespace {
-
-constexpr double kGuardReach = 0.2;  // m; pairs further apart cannot meet within a step
 
 // One direction of the pass, from the template's frame outwards.
 class Pass {
@@ -26,7 +25,8 @@ class Pass {
     if (previous >= 0) {
       x_.edit.col(t) = x_.edit.col(previous);
       // Where the capture itself goes through a limb, start from the pose of the frame before.
-      if (LargestGliJump(scene_.body, last_, NodesAt(t), kGuardReach).size > options_.gli_jump) {
+      if (LargestGliJump(scene_.body, last_, NodesAt(t), options_.guard_reach).size >
+          options_.gli_jump) {
         KeepPose(previous, t);
       }
       follow = x_.edit.col(t);
@@ -81,24 +81,21 @@ class Pass {
   }
 
   bool Sound(const NodePositions& accepted, const NodePositions& now, int previous) const {
-    if (LargestGliJump(scene_.body, accepted, now, kGuardReach).size > options_.gli_jump)
+    if (LargestGliJump(scene_.body, accepted, now, options_.guard_reach).size > options_.gli_jump)
       return false;
     return previous < 0 ||
-           LargestGliJump(scene_.body, last_, now, kGuardReach).size <= options_.gli_jump;
+           LargestGliJump(scene_.body, last_, now, options_.guard_reach).size <= options_.gli_jump;
   }
 
   // Gives frame t the edit that keeps the pose of `previous`.
   void KeepPose(int previous, int t) {
-    Scene one = scene_;
-    std::array<Clip, 2> pose;
+    Pose pose;
     for (int f = 0; f < 2; ++f) {
-      one.source[f].frames = {scene_.source[f].frames[t]};
-      one.contacts[f].clear();
-      pose[f].frames.resize(1);
-      EditedPose(scene_.source[f].frames[previous],
-                 x_.edit.col(previous).data() + scene_.FirstCoordinate(f), &pose[f].frames[0]);
+      const int first = scene_.FirstCoordinate(f);
+      const std::vector<Pose>& source = scene_.source[f].frames;
+      EditedPose(source[previous], x_.edit.col(previous).data() + first, &pose);
+      EditOf(source[t], pose, x_.edit.col(t).data() + first);
     }
-    x_.edit.col(t) = UnknownsFromPoses(one, pose).edit.col(0);
   }
 
   // Contacts that begin with this frame, in the pass's direction: their anchors are still free.
@@ -136,17 +133,9 @@ class Pass {
   }
 
   void Linearise(int t, const VecX& follow, bool follows) {
-    const int n = scene_.num_coordinates();
     SetFrame(t, true);
     problem_.EvaluateFrame(frame_, 1, true, &rows_);
-    hessian_.setZero(n, n);
-    gradient_.setZero(n);
-    AddNormalEquations(rows_.jacobian().data(), rows_.residual().data(), rows_.num_rows(), n,
-                       hessian_.data(), gradient_.data());
-    for (const Rows::CoordinateRow& c : rows_.coordinates()) {
-      hessian_(c.coordinate, c.coordinate) += c.derivative * c.derivative;
-      gradient_[c.coordinate] += c.derivative * c.residual;
-    }
+    NormalEquations(rows_, &hessian_, &gradient_);
     if (!follows) return;
     const double w2 = options_.follow_weight * options_.follow_weight;
     hessian_.diagonal().array() += w2;

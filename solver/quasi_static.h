@@ -13,6 +13,7 @@ struct QuasiStaticOptions {
   int most_iterations = 8;     // per frame; ten times as many in the first
   double step_limit_m = 0.05;  // per iteration
   double gli_jump = 0.4;       // turns, between iterates and between frames
+  double guard_reach = 0.2;    // m; pairs further apart cannot meet within a step
   double follow_weight = 3;    // 1/rad, 1/m: the edit stays near that of the frame before
 };
 

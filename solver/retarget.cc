@@ -68,6 +68,10 @@ RetargetResult Retarget(const RetargetInput& input, const Settings& settings,
   const Unknowns start = StartOf(problem);
   result.start_seconds = SecondsNow() - started;
   result.solve = SolveSpacetime(problem, start, progress);
+  if (result.solve.stalled) {
+    result.warnings.push_back(
+        "the solve stalled: no further step was acceptable; the best so far is kept");
+  }
   result.solved = EditedClips(result.scene, result.solve.unknowns);
   result.costs = problem.CostByTerm(result.solve.unknowns);
   return result;

@@ -3,8 +3,6 @@
 #include "model/so3.h"
 
 namespace retarget {
-namespace {
-
 void EditOf(const Pose& source, const Pose& pose, double* x) {
   Eigen::Map<Vec3> translation(x);
   translation = pose.root_position - source.root_position;
@@ -13,8 +11,6 @@ void EditOf(const Pose& source, const Pose& pose, double* x) {
     delta = LogSo3(source.rotation[l].conjugate() * pose.rotation[l]);
   }
 }
-
-}  // namespace
 
 void EditedPose(const Pose& source, const double* x, Pose* pose) {
   pose->root_position = source.root_position + Eigen::Map<const Vec3>(x);

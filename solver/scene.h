@@ -52,5 +52,7 @@ std::array<Clip, 2> EditedClips(const Scene& scene, const Unknowns& unknowns);
 
 // The pose of one figure at one frame; `x` are the frame's coordinates of that figure.
 void EditedPose(const Pose& source, const double* x, Pose* pose);
+// The other way: the coordinates that turn `source` into `pose`.
+void EditOf(const Pose& source, const Pose& pose, double* x);
 
 }  // namespace retarget

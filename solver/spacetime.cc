@@ -45,11 +45,9 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
     Frame& frame = frames[thread];
     frame.Set(scene, unknowns, t, false);
     for (size_t k = 0; k < paths.size(); ++k) {
-      std::array<std::vector<Vec3>, 2> points;
-      for (int f = 0; f < 2; ++f) {
-        for (const int node : paths[k][f]) points[f].push_back(frame.posed[f].node[node]);
-      }
-      gli[t] = std::min(gli[t], scene.tangles[k].sign * PolylineGli(points[0], points[1]));
+      const double value = PolylineGli(PointsOn(frame.posed[0].node, paths[k][0]),
+                                       PointsOn(frame.posed[1].node, paths[k][1]));
+      gli[t] = std::min(gli[t], scene.tangles[k].sign * value);
     }
     rows[thread].Reset(frame, false);
     penetration->Evaluate(frame, &rows[thread]);

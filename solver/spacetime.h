@@ -26,6 +26,9 @@ enum class SolveStatus { kConverged, kIterationLimit, kTimeLimit, kInterrupted }
 struct SolveResult {
   Unknowns unknowns;
   SolveStatus status = SolveStatus::kConverged;
+  // The last stage ended because no step was acceptable (only a pass-through led on, or the model
+  // failed), not because nothing was left to gain.
+  bool stalled = false;
   double initial_cost = 0, cost = 0;
   double seconds = 0;
   int iterations = 0;  // accepted

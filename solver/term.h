@@ -19,7 +19,7 @@ class Term {
   virtual const char* unit() const = 0;
   // Adds the rows of one frame. Hinges add a row only where they are active.
   virtual void Evaluate(const Frame& frame, Rows* rows) const = 0;
-  // Contact terms are raised in stages (DESIGN of the solve: weak contacts first).
+  // Contact terms are raised in stages (solve.stages: weak contacts first).
   virtual bool staged() const { return false; }
 };
 

@@ -46,8 +46,7 @@ struct FromClipsOptions {
 int RunTemplateFromClips(const FromClipsOptions& options);
 int RunRender(const std::string& folder, const std::string& out, bool force);
 
-// What a run does when the user presses Ctrl-C: finish the iteration, write the best so far.
-bool Interrupted();
+// Ctrl-C from here on: finish the iteration, write the best so far.
 void CatchInterrupts();
 
 }  // namespace retarget

@@ -41,12 +41,7 @@ std::vector<RenderCapsule> CapsulesAt(const MotionView& view, const MeasureSubje
 
 int RunRender(const std::string& folder, const std::string& out, bool force) {
   const std::string report_path = folder + "/report.json";
-  Json report;
-  try {
-    report = Json::parse(ReadFile(report_path));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(report_path + ": " + error.what());
-  }
+  const Json report = ReadReport(folder);
   const MeasureSubject subject = SubjectFromJson(report, report_path);
   const SceneMotion source = ReadSceneGlb(folder + "/source.glb");
   const SceneMotion scene = ReadSceneGlb(folder + "/scene.glb");

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/files.h"
+
 namespace retarget {
 namespace {
-
-constexpr const char* kFigure[2] = {"a", "b"};
 
 std::vector<std::string> NodeNames(const Body& body) {
   std::vector<std::string> names;
@@ -59,6 +59,15 @@ Json FigureJson(const Body& body, const FigureMetrics& m) {
 }
 
 }  // namespace
+
+Json ReadReport(const std::string& folder) {
+  const std::string path = folder + "/report.json";
+  try {
+    return Json::parse(ReadFile(path));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(path + ": " + error.what());
+  }
+}
 
 MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body) {
   std::array<std::vector<int>, 2> nodes;

@@ -15,6 +15,11 @@ namespace retarget {
 
 using Json = nlohmann::ordered_json;
 
+inline constexpr const char* kFigure[2] = {"a", "b"};  // names in files and messages
+
+// report.json of a run's folder. Throws InputError.
+Json ReadReport(const std::string& folder);
+
 // A written scene as a motion to be measured.
 MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body);
 

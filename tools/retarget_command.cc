@@ -21,7 +21,6 @@
 namespace retarget {
 namespace {
 
-constexpr const char* kFigure[2] = {"a", "b"};
 volatile std::sig_atomic_t interrupted = 0;
 
 struct FrameRange {
@@ -189,14 +188,15 @@ Json SolveJson(const RetargetResult& result) {
                      {"largest", c.largest}});
   }
   constexpr const char* kStatus[] = {"converged", "iteration limit", "time limit", "interrupted"};
-  return {{"backend", result.solve.backend},
-          {"status", kStatus[static_cast<int>(result.solve.status)]},
-          {"initial_cost", result.solve.initial_cost},
-          {"cost", result.solve.cost},
-          {"iterations", result.solve.iterations},
-          {"linear_solves", result.solve.linear_solves},
-          {"terms", terms},
-          {"history", history}};
+  return {
+      {"backend", result.solve.backend},
+      {"status", result.solve.stalled ? "stalled" : kStatus[static_cast<int>(result.solve.status)]},
+      {"initial_cost", result.solve.initial_cost},
+      {"cost", result.solve.cost},
+      {"iterations", result.solve.iterations},
+      {"linear_solves", result.solve.linear_solves},
+      {"terms", terms},
+      {"history", history}};
 }
 
 int ExitCodeOf(SolveStatus status, bool all_met) {
@@ -246,8 +246,7 @@ int RunRetarget(const RetargetOptions& options) {
     checks.push_back({std::string("write-back ") + kFigure[f], rig[f].error_m, kWriteBackLimit, "m",
                       rig[f].error_m <= kWriteBackLimit, ""});
   }
-  const bool all_met =
-      std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
+  const bool all_met = AllMet(checks);
   const int exit_code = ExitCodeOf(result.solve.status, all_met);
 
   // Report and write.

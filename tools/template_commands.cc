@@ -143,8 +143,7 @@ int RunTemplateCheck(const std::string& path, bool json) {
     }
   }
   if (tangles.tags.empty()) warnings.push_back("nothing is tangled in this posture");
-  const bool met =
-      std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
+  const bool met = AllMet(checks);
   if (json) {
     Json out = {{"name", posture.name},
                 {"requirements_met", met},

@@ -38,12 +38,7 @@ RequirementCheck CheckWriteBack(const Json& written, const std::string& folder, 
 
 int RunVerify(const std::string& folder, bool json) {
   const std::string report_path = folder + "/report.json";
-  Json report;
-  try {
-    report = Json::parse(ReadFile(report_path));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(report_path + ": " + error.what());
-  }
+  const Json report = ReadReport(folder);
   const MeasureSubject subject = SubjectFromJson(report, report_path);
   const Settings settings = ReadSettings(folder + "/config.yaml");
   const SceneMotion scene = ReadSceneGlb(folder + "/scene.glb");
@@ -65,7 +60,7 @@ int RunVerify(const std::string& folder, bool json) {
   const Metrics source_metrics = Measure(subject, source_view, source_view);
   std::vector<RequirementCheck> checks = CheckRequirements(subject, metrics, settings.requirements);
   for (int f = 0; f < 2; ++f) {
-    const char* figure = f == 0 ? "a" : "b";
+    const char* figure = kFigure[f];
     try {
       checks.push_back(CheckWriteBack(report.at("write_back").at(figure), folder, f, scene_view,
                                       subject.body[f]));
@@ -76,8 +71,7 @@ int RunVerify(const std::string& folder, bool json) {
     checks.push_back(
         {std::string("segment lengths ") + figure, length, 0.5, "%", length <= 0.5, ""});
   }
-  const bool all_met =
-      std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
+  const bool all_met = AllMet(checks);
   if (json) {
     const Json out = {{"requirements_met", all_met},
                       {"requirements", ChecksJson(checks)},

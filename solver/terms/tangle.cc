@@ -3,16 +3,6 @@
 #include "model/path.h"
 
 namespace retarget {
-namespace {
-
-std::vector<Vec3> Points(const PosedBody& posed, const std::vector<int>& nodes) {
-  std::vector<Vec3> points;
-  for (const int n : nodes) points.push_back(posed.node[n]);
-  return points;
-}
-
-}  // namespace
-
 TangleTerm::TangleTerm(const Scene& scene) {
   for (const HeldTangle& held : scene.tangles) {
     items_.push_back({NodesOn(scene.body[0], held.tag.tangle.a),
@@ -22,13 +12,13 @@ TangleTerm::TangleTerm(const Scene& scene) {
 
 void TangleTerm::Evaluate(const Frame& frame, Rows* rows) const {
   for (const Item& item : items_) {
-    const std::vector<Vec3> p = Points(frame.posed[0], item.nodes_a);
-    const std::vector<Vec3> q = Points(frame.posed[1], item.nodes_b);
+    const std::vector<Vec3> p = PointsOn(frame.posed[0].node, item.nodes_a);
+    const std::vector<Vec3> q = PointsOn(frame.posed[1].node, item.nodes_b);
     const double missing = item.target - item.sign * PolylineGli(p, q);
     if (missing <= 0) continue;
     const int row = rows->Add(missing);
     if (!rows->derivatives()) continue;
-    const PathGli gli = PolylineGliWithGradient(p, q);
+    const PathGli gli = PolylineGliGradient(p, q);
     for (size_t i = 0; i < p.size(); ++i) {
       rows->AddNode(row, 0, item.nodes_a[i], -item.sign * gli.gradient_p[i]);
     }

@@ -10,7 +10,7 @@
 
 #include "solver/banded.h"
 #include "solver/guard.h"
-#include "solver/kernels.h"
+#include "solver/normal_equations.h"
 #include "solver/spacetime.h"
 
 namespace retarget {
@@ -26,7 +26,7 @@ double CpuSecondsNow() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Fills frame blocks as solver/banded_stage.cc does, and counts the seconds.
+// Fills the frames' blocks and counts the seconds.
 class TimedAssembly {
  public:
   TimedAssembly(const Problem& problem, const Unknowns& x) : problem_(problem), x_(x) {}
@@ -36,8 +36,7 @@ class TimedAssembly {
     frame_.Set(problem_.scene(), x_, t, true);
     problem_.EvaluateFrame(frame_, 1, true, &rows_);
     const double evaluated = CpuSecondsNow();
-    FillFrame(t, block);
-    FillAnchors(block);
+    FillBlock(problem_, rows_, x_.edit, t, block);
     terms_s += evaluated - started;
     normal_equations_s += CpuSecondsNow() - evaluated;
     num_rows += rows_.num_rows();
@@ -47,39 +46,6 @@ class TimedAssembly {
   long num_rows = 0;
 
  private:
-  void FillFrame(int t, FrameBlock* block) {
-    const int n = problem_.scene().num_coordinates();
-    block->hessian.setZero(n, n);
-    block->gradient.setZero(n);
-    AddNormalEquations(rows_.jacobian().data(), rows_.residual().data(), rows_.num_rows(), n,
-                       block->hessian.data(), block->gradient.data());
-    for (const Rows::CoordinateRow& c : rows_.coordinates()) {
-      block->hessian(c.coordinate, c.coordinate) += c.derivative * c.derivative;
-      block->gradient[c.coordinate] += c.derivative * c.residual;
-    }
-    problem_.smoothness().AddGradient(x_.edit, t, block->gradient);
-  }
-
-  void FillAnchors(FrameBlock* block) {
-    block->anchors.clear();
-    for (const Rows::AnchorEntry& e : rows_.anchors()) {
-      if (block->anchors.empty() || block->anchors.back() != e.anchor) {
-        block->anchors.push_back(e.anchor);
-      }
-    }
-    const long m = kAnchorSize * static_cast<long>(block->anchors.size());
-    block->anchor_coupling.setZero(m, block->gradient.size());
-    block->anchor_diagonal.setZero(m);
-    block->anchor_gradient.setZero(m);
-    for (const Rows::AnchorEntry& e : rows_.anchors()) {
-      const auto at = std::find(block->anchors.begin(), block->anchors.end(), e.anchor);
-      const long row = kAnchorSize * (at - block->anchors.begin()) + e.component;
-      block->anchor_coupling.row(row) += e.value * rows_.jacobian().row(e.row);
-      block->anchor_diagonal[row] += e.value * e.value;
-      block->anchor_gradient[row] += e.value * rows_.residual()[static_cast<size_t>(e.row)];
-    }
-  }
-
   const Problem& problem_;
   const Unknowns& x_;
   Frame frame_;
@@ -87,11 +53,7 @@ class TimedAssembly {
 };
 
 BandedSystem SystemOf(const Problem& problem) {
-  std::vector<AnchorSpan> spans;
-  for (const auto& contacts : problem.scene().contacts) {
-    for (const Contact& c : contacts) spans.push_back({c.first, c.last});
-  }
-  return BandedSystem(problem.scene().num_frames(), spans,
+  return BandedSystem(problem.scene().num_frames(), AnchorSpans(problem.scene()),
                       problem.smoothness().weight().array().square());
 }
 
@@ -145,7 +107,6 @@ void MeasureLinearSolve(const Problem& problem, const Unknowns& x, IterationSpli
 
 // The guard looks at every frame twice: as it was and as it would be.
 void MeasureGuard(const Scene& scene, const Unknowns& x, IterationSplit* split) {
-  constexpr double kReach = 0.25;  // m, as in solver/banded_stage.cc
   std::vector<NodePositions> nodes;
   Frame frame;
   for (int t = 0; t < scene.num_frames(); ++t) {
@@ -155,7 +116,7 @@ void MeasureGuard(const Scene& scene, const Unknowns& x, IterationSplit* split) 
   double largest = 0;
   split->guard_ms = LeastMs(scene.num_frames(), CpuSecondsNow, [&] {
     for (size_t t = 0; t < nodes.size(); ++t) {
-      largest += LargestGliJump(scene.body, nodes[t], nodes[t ? t - 1 : 0], kReach).size;
+      largest += LargestGliJump(scene.body, nodes[t], nodes[t ? t - 1 : 0], kGuardReach).size;
     }
   });
   if (largest < 0) throw std::logic_error("a GLI jump is negative");  // keeps the loop alive
