@@ -47,7 +47,7 @@ struct Requirements {
 
 struct SolveSettings {
   std::string backend = "banded";   // "banded" or "ceres"
-  std::string start = "template";   // initial guess
+  std::string start = "simulated";  // initial guess
   int threads = 0;                  // 0: all cores
   int max_iterations = 120;         // over all stages
   double max_seconds = 0;           // 0: no limit
@@ -66,6 +66,29 @@ struct ContactSettings {
   double min_length_s = 0.2;  // then runs shorter than this are dropped
 };
 
+// The forward simulation (solver/simulation): baseline, and one of the starts.
+struct SimulationSettings {
+  double time_step = 0.004;           // s
+  double gravity = 9.81;              // m/s^2
+  double stiffness = 600;             // N m/rad, of the joints' control towards the capture
+  double damping = 0.1;               // s, of the same: damping over stiffness
+  double armature = 0.02;             // kg m^2, added to every joint's inertia
+  double root_stiffness = 10000;      // N/m, of the roots' control
+  double root_turn_stiffness = 1500;  // N m/rad, of the same
+  double root_damping = 0.1;          // s, of the same: damping over stiffness
+  double friction = 1;
+  double contact_time = 0.01;  // s: contacts give way for about this long
+  double tie_time = 0.01;      // s, the same of holds and planted feet
+  std::string tangle_force = "elastic";
+  double tangle_stiffness = 400;      // N/m, of the elastic pull
+  double tangle_max_force = 150;      // N
+  double tangle_slack_m = 0;          // gap that the pull leaves
+  double tangle_gli_stiffness = 100;  // J/turn^2, of the pull along the GLI's gradient
+  double settle_max_s = 3;
+  double settle_speed = 0.02;  // m/s: at rest, every node is slower
+  JointWeights gains{1, 1, 1, 1, 1, 0.5, 0.3, 0.1, 1.5, 1.5, 0.8, 0.3};
+};
+
 struct Settings {
   Weights weights;
   JointWeights joint_weights;
@@ -73,6 +96,7 @@ struct Settings {
   Requirements requirements;
   SolveSettings solve;
   ContactSettings contact;
+  SimulationSettings simulation;
 };
 
 // Calls visit(key, value&, unit, meaning, least, most) for every setting, in order; `value` is a
@@ -132,7 +156,8 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("requirements.hold_m", r.hold_m, "m", "largest distance of held points", 0, 1);
   auto& v = s.solve;
   visit("solve.backend", v.backend, "", "linear algebra of the clip's solve", "banded|ceres", 0);
-  visit("solve.start", v.start, "", "initial guess", "template", 0);
+  visit("solve.start", v.start, "", "initial guess; best: solve from both, keep the better",
+        "simulated|template|best", 0);
   visit("solve.threads", v.threads, "", "0: all cores", 0, 256);
   visit("solve.max_iterations", v.max_iterations, "", "over all stages", 1, 100000);
   visit("solve.max_seconds", v.max_seconds, "s", "0: no limit", 0, kMax);
@@ -152,6 +177,45 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("contact.height", c.height, "m", "over the node's 5th percentile", 0, 1);
   visit("contact.max_gap_s", c.max_gap_s, "s", "shorter gaps are closed", 0, 10);
   visit("contact.min_length_s", c.min_length_s, "s", "then shorter runs are dropped", 0, 10);
+  auto& m = s.simulation;
+  visit("simulation.time_step", m.time_step, "s", "of the physics", 1e-4, 0.02);
+  visit("simulation.gravity", m.gravity, "m/s^2", "downwards", 0, 100);
+  visit("simulation.stiffness", m.stiffness, "N m/rad", "joints turn towards the capture", 0, kMax);
+  visit("simulation.damping", m.damping, "s", "of the same, over its stiffness", 0, 10);
+  visit("simulation.armature", m.armature, "kg m^2", "added to every joint's inertia", 0, 10);
+  visit("simulation.root_stiffness", m.root_stiffness, "N/m",
+        "roots move towards the capture, or to their place on the partner", 0, kMax);
+  visit("simulation.root_turn_stiffness", m.root_turn_stiffness, "N m/rad", "roots turn likewise",
+        0, kMax);
+  visit("simulation.root_damping", m.root_damping, "s", "of the same, over its stiffness", 0, 10);
+  visit("simulation.friction", m.friction, "", "of figures and floor", 0, 10);
+  visit("simulation.contact_time", m.contact_time, "s", "contacts give way for about this long",
+        1e-3, 1);
+  visit("simulation.tie_time", m.tie_time, "s", "the same of holds and planted feet", 1e-3, 1);
+  visit("simulation.tangle_force", m.tangle_force, "",
+        "elastic: pull between crossing segments; gli: along the gradient of the tag",
+        "elastic|gli", 0);
+  visit("simulation.tangle_stiffness", m.tangle_stiffness, "N/m", "of the elastic pull", 0, kMax);
+  visit("simulation.tangle_max_force", m.tangle_max_force, "N", "of the elastic pull", 0, kMax);
+  visit("simulation.tangle_slack_m", m.tangle_slack_m, "m", "gap that the elastic pull leaves", 0,
+        1);
+  visit("simulation.tangle_gli_stiffness", m.tangle_gli_stiffness, "J/turn^2",
+        "of the pull along the gradient", 0, kMax);
+  visit("simulation.settle_max_s", m.settle_max_s, "s", "longest time to come to rest", 0, 60);
+  visit("simulation.settle_speed", m.settle_speed, "m/s", "at rest every node is slower", 0, 10);
+  auto& g = m.gains;
+  visit("simulation.gain_waist", g.waist, "", "share of simulation.stiffness", 0, kMax);
+  visit("simulation.gain_chest", g.chest, "", "the same", 0, kMax);
+  visit("simulation.gain_neck", g.neck, "", "the same", 0, kMax);
+  visit("simulation.gain_head", g.head, "", "the same", 0, kMax);
+  visit("simulation.gain_clavicle", g.clavicle, "", "the same", 0, kMax);
+  visit("simulation.gain_shoulder", g.shoulder, "", "the same", 0, kMax);
+  visit("simulation.gain_elbow", g.elbow, "", "the same", 0, kMax);
+  visit("simulation.gain_wrist", g.wrist, "", "the same", 0, kMax);
+  visit("simulation.gain_hip", g.hip, "", "the same", 0, kMax);
+  visit("simulation.gain_knee", g.knee, "", "the same", 0, kMax);
+  visit("simulation.gain_ankle", g.ankle, "", "the same", 0, kMax);
+  visit("simulation.gain_other", g.other, "", "joints of a larger body table", 0, kMax);
 }
 
 }  // namespace retarget

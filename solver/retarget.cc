@@ -37,6 +37,48 @@ void WarnOfWeakTags(RetargetResult* result) {
   }
 }
 
+SolveResult SolveFrom(const Problem& problem, const std::string& start, const Progress& progress,
+                      RetargetResult* result) {
+  const double started = SecondsNow();
+  const Unknowns guess = start == "simulated"
+                             ? UnknownsFromPoses(problem.scene(), result->simulation.motion)
+                             : TemplateStart(problem);
+  result->start_seconds += SecondsNow() - started;
+  return SolveSpacetime(problem, guess, progress);
+}
+
+// Solves from the start that the settings ask for, as far as the simulation allows.
+void SolveFromStart(const Problem& problem, const Progress& progress, RetargetResult* result) {
+  StartChoice& choice = result->start;
+  choice.requested = problem.settings().solve.start;
+  const SimulationResult& simulation = result->simulation;
+  const bool usable = simulation.status == SimulationStatus::kCompleted;
+  const bool try_simulated = choice.requested != "template" && usable;
+  const bool try_template = choice.requested != "simulated" || !usable;
+  choice.used = try_simulated ? "simulated" : "template";
+  choice.reason = choice.requested == "template" || usable
+                      ? "as asked for"
+                      : "the simulation cannot be a start: " + simulation.message;
+  if (try_simulated) {
+    result->solve = SolveFrom(problem, "simulated", progress, result);
+    choice.simulated_cost = result->solve.cost;
+    if (result->solve.status == SolveStatus::kInterrupted) return;
+  }
+  if (!try_template) return;
+  SolveResult other = SolveFrom(problem, "template", progress, result);
+  choice.template_cost = other.cost;
+  if (try_simulated) {
+    choice.used = other.cost < result->solve.cost ? "template" : "simulated";
+    choice.reason = "the cheaper of both";
+    other.seconds += result->solve.seconds;  // both were needed
+    if (choice.used == "simulated") {
+      result->solve.seconds = other.seconds;
+      return;
+    }
+  }
+  result->solve = std::move(other);
+}
+
 }  // namespace
 
 RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
@@ -64,10 +106,8 @@ RetargetResult Retarget(const RetargetInput& input, const Settings& settings,
                         const Progress& progress) {
   RetargetResult result = Prepare(input, settings);
   const Problem problem(result.scene, settings);
-  const double started = SecondsNow();
-  const Unknowns start = StartOf(problem);
-  result.start_seconds = SecondsNow() - started;
-  result.solve = SolveSpacetime(problem, start, progress);
+  result.simulation = Simulate(result.scene, settings.simulation);
+  SolveFromStart(problem, progress, &result);
   if (result.solve.stalled) {
     result.warnings.push_back(
         "the solve stalled: no further step was acceptable; the best so far is kept");

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/settings.h"
 #include "solver/fit_template.h"
 #include "solver/placement.h"
+#include "solver/simulation/simulation.h"
 #include "solver/spacetime.h"
 
 namespace retarget {
@@ -19,23 +21,33 @@ struct RetargetInput {
   int template_frame = 0;  // laid into the template
 };
 
+// Which initial guess the solve took (solve.start), and why.
+struct StartChoice {
+  std::string requested, used;  // "simulated", "template"; requested also "best"
+  std::string reason;           // one sentence
+  // Cost at the end of the solve from each start that was tried.
+  std::optional<double> simulated_cost, template_cost;
+};
+
 struct RetargetResult {
   TemplateTangles tangles;
   Scene scene;
   std::array<Placement, 2> placement;
-  double start_seconds = 0;  // spent on the initial guess
+  SimulationResult simulation;  // the baseline
+  StartChoice start;
+  double start_seconds = 0;  // spent on the initial guess, the simulation left out
   SolveResult solve;
   std::array<Clip, 2> solved;
   std::vector<TermCost> costs;
   std::vector<std::string> warnings;
 };
 
-// Fits the template, finds the tangles, places the clips, detects the contacts, chooses a start and
-// solves. Files are not its business.
+// Fits the template, finds the tangles, places the clips, detects the contacts, simulates, chooses
+// a start and solves. Files are not its business.
 RetargetResult Retarget(const RetargetInput& input, const Settings& settings,
                         const Progress& progress);
 
-// All but the solve: what the problem would be.
+// All but the simulation and the solve: what the problem would be.
 RetargetResult Prepare(const RetargetInput& input, const Settings& settings);
 
 }  // namespace retarget

@@ -77,7 +77,7 @@ std::array<Clip, 2> TemplateRelativePoses(const Scene& scene) {
   return start;
 }
 
-Unknowns StartOf(const Problem& problem) {
+Unknowns TemplateStart(const Problem& problem) {
   const Scene& scene = problem.scene();
   return QuasiStaticPass(problem, UnknownsFromPoses(scene, TemplateRelativePoses(scene)));
 }

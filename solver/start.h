@@ -1,4 +1,4 @@
-// The initial guess of the spacetime solve: the one place where it is chosen.
+// The initial guess of the spacetime solve that needs no simulation.
 #pragma once
 
 #include <array>
@@ -7,11 +7,10 @@
 
 namespace retarget {
 
-// Start of the solve, by settings.solve.start:
-//  template: the template posture, carried frame by frame through the clip. The pair is laid into
-//  the template at scene.template_frame; from there a quasi-static pass (solver/quasi_static.h)
-//  goes outwards, each frame starting where its neighbour ended.
-Unknowns StartOf(const Problem& problem);
+// The template-relative start: the template posture, carried frame by frame through the clip. The
+// pair is laid into the template at scene.template_frame; from there a quasi-static pass
+// (solver/quasi_static.h) goes outwards, each frame starting where its neighbour ended.
+Unknowns TemplateStart(const Problem& problem);
 
 // Both figures in the template posture relative to each other in every frame, carried along by the
 // mean of the two clips' root motions (or by the leader's, where one follows its partner); joints

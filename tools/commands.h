@@ -31,6 +31,9 @@ struct RetargetOptions {
 };
 int RunRetarget(const RetargetOptions& options);
 
+// Runs the forward simulation alone and writes baseline.glb and source.glb.
+int RunSimulate(const RetargetOptions& options);
+
 int RunVerify(const std::string& folder, bool json);
 int RunTangles(const std::string& path, bool json);
 int RunMap(const ClipOptions& clip, bool json);

@@ -68,6 +68,18 @@ struct CommandLine {
   }
 
   void AddRetarget(CLI::App* app) {
+    AddScene(app);
+    CLI::App* simulate = app->add_subcommand(
+        "simulate", "the forward simulation alone: what `retarget` is compared with");
+    AddScene(simulate);
+    simulate->callback([this] {
+      RequireScene();
+      code = RunSimulate(retarget);
+    });
+  }
+
+  // The options that say which clips are to be tangled how.
+  void AddScene(CLI::App* app) {
     RetargetOptions& o = retarget;
     app->add_option("--clip-a", o.clip[0].path, "first clip (BVH)");
     app->add_option("--clip-b", o.clip[1].path, "second clip (BVH)");
@@ -150,7 +162,7 @@ struct CommandLine {
     return RunTemplateFromClips(from_clips);
   }
 
-  int RunMain() const {
+  void RequireScene() const {
     const std::pair<const char*, const std::string*> required[] = {
         {"--clip-a", &retarget.clip[0].path},
         {"--clip-b", &retarget.clip[1].path},
@@ -159,6 +171,10 @@ struct CommandLine {
       if (value->empty())
         throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
     }
+  }
+
+  int RunMain() const {
+    RequireScene();
     return RunRetarget(retarget);
   }
 };

@@ -107,6 +107,24 @@ double WriteBackError(const RigMotion& written, double metres_per_unit, char up,
   return worst;
 }
 
+Json SimulationJson(const SimulationResult& s) {
+  return {{"status", NameOf(s.status)},
+          {"message", s.message},
+          {"settled", s.settled},
+          {"settle_s", s.settle_s},
+          {"settle_distance_m", s.settle_distance_m},
+          {"frames_simulated", s.frames_simulated},
+          {"simulated_s", s.simulated},
+          {"seconds", s.seconds},
+          {"realtime_factor", s.simulated / s.seconds}};
+}
+
+std::string SettleSentence(const SimulationResult& s) {
+  return fmt::format("{} {:.2f} s, nodes {:.1f} cm from the template on average",
+                     s.settled ? "at rest after" : "not at rest after", s.settle_s,
+                     100 * s.settle_distance_m);
+}
+
 Json MetricsJson(const MeasureSubject& subject, const Metrics& m) {
   Json tangles = Json::array();
   for (const TangleMetrics& t : m.tangles) {

@@ -32,6 +32,10 @@ double WriteBackError(const RigMotion& written, double metres_per_unit, char up,
                       const std::vector<NodeJoint>& joints, const MotionView& scene, int figure);
 inline constexpr double kWriteBackLimit = 0.005;  // m
 
+Json SimulationJson(const SimulationResult& simulation);
+// When the figures came to rest, and how far from the template.
+std::string SettleSentence(const SimulationResult& simulation);
+
 Json MetricsJson(const MeasureSubject& subject, const Metrics& metrics);
 Json SubjectJson(const MeasureSubject& subject, const Metrics& result);
 // The subject of a report read back. Throws InputError naming `path`.

@@ -7,14 +7,13 @@
 #include <csignal>
 #include <cstdio>
 
-#include "io/scene_glb.h"
 #include "io/settings_file.h"
-#include "io/template_file.h"
 #include "model/write_back.h"
 #include "solver/kernels.h"
 #include "solver/parallel.h"
 #include "tools/commands.h"
 #include "tools/files.h"
+#include "tools/job.h"
 #include "tools/report.h"
 #include "tools/version.h"
 
@@ -22,73 +21,6 @@ namespace retarget {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-
-struct FrameRange {
-  int first, last;  // half-open
-};
-
-FrameRange ParseFrames(const std::string& text, int available) {
-  if (text.empty()) return {0, available};
-  int first = 0, last = 0, read = 0;
-  const bool parsed = std::sscanf(text.c_str(), "%d:%d%n", &first, &last, &read) == 2 &&
-                      read == static_cast<int>(text.size());
-  if (!parsed || first < 0 || last <= first) {
-    throw InputError(fmt::format("--frames {}: expected i:j with 0 <= i < j", text));
-  }
-  if (last > available) {
-    throw InputError(fmt::format(
-        "--frames {}: the clips have {} common output frames from their starts", text, available));
-  }
-  return {first, last};
-}
-
-Settings EffectiveSettings(const RetargetOptions& options) {
-  Settings settings = options.config_path.empty() ? Settings{} : ReadSettings(options.config_path);
-  for (const std::string& assignment : options.set) SetByName(&settings, assignment);
-  if (options.threads >= 0) settings.solve.threads = options.threads;
-  ParseStages(settings.solve.stages);
-  return settings;
-}
-
-struct Job {
-  std::array<LoadedClip, 2> clip;
-  RetargetInput input;
-  FrameRange frames;
-};
-
-Job LoadJob(const RetargetOptions& options) {
-  Job job;
-  job.input.posture = ReadTemplate(options.template_path);
-  double common = 1e300;
-  for (int f = 0; f < 2; ++f) {
-    job.clip[f] = LoadClip(options.clip[f]);
-    common = std::min(common, job.clip[f].duration() - options.clip[f].start);
-  }
-  const int available = static_cast<int>(std::floor(common * options.fps + 1e-3)) + 1;
-  job.frames = ParseFrames(options.frames, available);
-  for (int f = 0; f < 2; ++f) {
-    job.input.body[f] = job.clip[f].binding->body();
-    job.input.clip[f] = job.clip[f].Resampled(options.fps, job.frames.first, job.frames.last);
-  }
-  const double at = std::round(options.template_at * options.fps) - job.frames.first;
-  if (at < 0 || at >= job.frames.last - job.frames.first) {
-    throw InputError(fmt::format(
-        "--template-at {}: lies outside the solved frames ({:.3f} to {:.3f} s)",
-        options.template_at, job.frames.first / options.fps, (job.frames.last - 1) / options.fps));
-  }
-  job.input.template_frame = static_cast<int>(at);
-  return job;
-}
-
-void TellNotes(const Job& job) {
-  for (int f = 0; f < 2; ++f) {
-    const RigFacts& facts = job.clip[f].facts;
-    fmt::print(stderr, "clip {}: {}, profile {}, {} up {}, stature {:.2f} m\n", kFigure[f],
-               job.clip[f].options.path, facts.map.profile, facts.unit_name, facts.up,
-               job.input.body[f].stature);
-    for (const std::string& note : facts.notes) fmt::print(stderr, "  note: {}\n", note);
-  }
-}
 
 // One line per iteration on a terminal, silence elsewhere.
 Progress ProgressLines() {
@@ -105,12 +37,6 @@ Progress ProgressLines() {
     }
     return !interrupted;
   };
-}
-
-std::string SceneBytes(const RetargetResult& result, const std::array<Clip, 2>& clips) {
-  return FormatSceneGlb({{"a", &result.scene.body[0], &clips[0], kColourA},
-                         {"b", &result.scene.body[1], &clips[1], kColourB}},
-                        kGenerator);
 }
 
 struct WrittenRig {
@@ -199,6 +125,15 @@ Json SolveJson(const RetargetResult& result) {
       {"history", history}};
 }
 
+Json StartJson(const StartChoice& start) {
+  const auto cost = [](const std::optional<double>& c) { return c ? Json(*c) : Json(nullptr); };
+  return {{"requested", start.requested},
+          {"used", start.used},
+          {"reason", start.reason},
+          {"costs",
+           {{"simulated", cost(start.simulated_cost)}, {"template", cost(start.template_cost)}}}};
+}
+
 int ExitCodeOf(SolveStatus status, bool all_met) {
   if (status == SolveStatus::kInterrupted) return kInterrupted;
   if (status != SolveStatus::kConverged) return kLimit;
@@ -220,7 +155,8 @@ int RunRetarget(const RetargetOptions& options) {
   const Settings settings = EffectiveSettings(options);
   const Job job = LoadJob(options);
   OutputSet output(
-      options.out, {"scene.glb", "source.glb", "a.bvh", "b.bvh", "report.json", "config.yaml"},
+      options.out,
+      {"scene.glb", "source.glb", "baseline.glb", "a.bvh", "b.bvh", "report.json", "config.yaml"},
       {options.clip[0].path, options.clip[1].path, options.template_path}, options.force);
   TellNotes(job);
 
@@ -230,15 +166,19 @@ int RunRetarget(const RetargetOptions& options) {
   for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   // Measure what is written, as it would be read back.
-  const std::string scene_bytes = SceneBytes(result, result.solved);
-  const std::string source_bytes = SceneBytes(result, result.scene.source);
+  const std::string scene_bytes = SceneBytes(result.scene, result.solved);
+  const std::string source_bytes = SceneBytes(result.scene, result.scene.source);
+  const std::string baseline_bytes = SceneBytes(result.scene, result.simulation.motion);
   const SceneMotion scene = ParseSceneGlb(scene_bytes, "scene.glb");
   const SceneMotion source = ParseSceneGlb(source_bytes, "source.glb");
+  const SceneMotion baseline = ParseSceneGlb(baseline_bytes, "baseline.glb");
   const MotionView scene_view = ViewOfScene(scene, result.scene.body);
   const MotionView source_view = ViewOfScene(source, result.scene.body);
   const MeasureSubject subject = SubjectOf(result.scene);
   const Metrics metrics = Measure(subject, scene_view, source_view);
   const Metrics source_metrics = Measure(subject, source_view, source_view);
+  const Metrics baseline_metrics =
+      Measure(subject, ViewOfScene(baseline, result.scene.body), source_view);
   std::vector<RequirementCheck> checks = CheckRequirements(subject, metrics, settings.requirements);
   std::array<WrittenRig, 2> rig;
   for (int f = 0; f < 2; ++f) {
@@ -275,14 +215,17 @@ int RunRetarget(const RetargetOptions& options) {
     }
   }
   report["metrics"] = {{"source", MetricsJson(subject, source_metrics)},
-                       {"baseline", nullptr},
+                       {"baseline", MetricsJson(subject, baseline_metrics)},
                        {"result", MetricsJson(subject, metrics)}};
   report["requirements"] = ChecksJson(checks);
   report["warnings"] = result.warnings;
   report["literal_tangles"] = result.tangles.literal.size();
   report["solve"] = SolveJson(result);
+  report["simulation"] = SimulationJson(result.simulation);
+  report["start"] = StartJson(result.start);
   report["iterations"] = result.solve.iterations;
   report["timings"] = {{"start_s", result.start_seconds},
+                       {"simulation_s", result.simulation.seconds},
                        {"solve_s", result.solve.seconds},
                        {"frames_per_s", result.scene.num_frames() / result.solve.seconds}};
   report["memory"] = {{"peak_bytes", PeakBytes()}};
@@ -295,6 +238,7 @@ int RunRetarget(const RetargetOptions& options) {
 
   output.Add("scene.glb", scene_bytes);
   output.Add("source.glb", source_bytes);
+  output.Add("baseline.glb", baseline_bytes);
   for (int f = 0; f < 2; ++f) output.Add(std::string(kFigure[f]) + ".bvh", rig[f].bytes);
   output.Add("report.json", report.dump(1) + "\n");
   output.Add("config.yaml", FormatSettings(settings));

@@ -4,7 +4,8 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config ccache libceres-dev libeigen3-dev libglm-dev
-          libtinygltf-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev zlib1g-dev)
+          libtinygltf-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev zlib1g-dev
+          libmujoco-dev libqhull-dev libgl-dev)
 if [[ ${1:-} == --tests ]]; then
   packages+=(libgtest-dev)
   command -v node >/dev/null || packages+=(nodejs)

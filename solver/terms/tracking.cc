@@ -42,24 +42,28 @@ void PoseTracking::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
-RootTracking::RootTracking(const Scene& scene) {
-  for (int f = 0; f < 2; ++f) {
-    if (scene.root[f] == RootLeader::kOwnClip) continue;
-    const Pose& self = scene.posture.pose[f];
-    const Pose& partner = scene.posture.pose[1 - f];
-    const Pose& start = scene.source[f].frames[scene.template_frame];
-    const Quat partner_inverse = partner.rotation[0].conjugate();
-    for (const Pose& pose : scene.source[f].frames) {
-      // X_T X_clip(t0)^-1 X_clip(t), then into the partner's frame.
-      const Quat start_inverse = start.rotation[0].conjugate();
-      const Quat moved_rotation = self.rotation[0] * start_inverse * pose.rotation[0];
-      const Vec3 moved =
-          self.root_position +
-          self.rotation[0] * (start_inverse * (pose.root_position - start.root_position));
-      relative_[f].push_back({partner_inverse * (moved - partner.root_position),
-                              (partner_inverse * moved_rotation).normalized()});
-    }
+std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure) {
+  std::vector<RelativeRoot> targets;
+  if (scene.root[figure] == RootLeader::kOwnClip) return targets;
+  const Pose& self = scene.posture.pose[figure];
+  const Pose& partner = scene.posture.pose[1 - figure];
+  const Pose& start = scene.source[figure].frames[scene.template_frame];
+  const Quat partner_inverse = partner.rotation[0].conjugate();
+  const Quat start_inverse = start.rotation[0].conjugate();
+  for (const Pose& pose : scene.source[figure].frames) {
+    // X_T X_clip(t0)^-1 X_clip(t), then into the partner's frame.
+    const Quat moved_rotation = self.rotation[0] * start_inverse * pose.rotation[0];
+    const Vec3 moved =
+        self.root_position +
+        self.rotation[0] * (start_inverse * (pose.root_position - start.root_position));
+    targets.push_back({partner_inverse * (moved - partner.root_position),
+                       (partner_inverse * moved_rotation).normalized()});
   }
+  return targets;
+}
+
+RootTracking::RootTracking(const Scene& scene) {
+  for (int f = 0; f < 2; ++f) relative_[f] = RelativeRootTargets(scene, f);
 }
 
 void RootTracking::Evaluate(const Frame& frame, Rows* rows) const {
@@ -75,7 +79,7 @@ void RootTracking::Evaluate(const Frame& frame, Rows* rows) const {
 
 void RootTracking::EvaluateFollower(const Frame& frame, int figure, Rows* rows) const {
   const int partner = 1 - figure;
-  const Relative& relative = relative_[figure][frame.t];
+  const RelativeRoot& relative = relative_[figure][frame.t];
   const Vec3& p = frame.posed[figure].centre[0];
   const Vec3& q = frame.posed[partner].centre[0];
   const Mat3 target_rotation =

@@ -20,6 +20,14 @@ namespace retarget {
 // Share of the joint group that a link belongs to ("left_elbow" -> elbow).
 double JointShare(const JointWeights& weights, const std::string& link_name);
 
+// Target of a follower's root in its partner's root frame, per frame (m).
+struct RelativeRoot {
+  Vec3 position;
+  Quat rotation;
+};
+// Of all frames; empty for a figure that follows its own clip.
+std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure);
+
 class PoseTracking : public Term {
  public:
   PoseTracking(const Scene& scene, const JointWeights& weights);
@@ -39,14 +47,8 @@ class RootTracking : public Term {
   void Evaluate(const Frame& frame, Rows* rows) const override;
 
  private:
-  // Follower's target pose in its partner's root frame, per frame; empty for figures led by the
-  // world.
-  struct Relative {
-    Vec3 position;
-    Quat rotation;
-  };
   void EvaluateFollower(const Frame& frame, int figure, Rows* rows) const;
-  std::array<std::vector<Relative>, 2> relative_;
+  std::array<std::vector<RelativeRoot>, 2> relative_;
 };
 
 }  // namespace retarget

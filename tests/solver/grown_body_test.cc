@@ -214,7 +214,7 @@ TEST(GrownBody, TheTemplateFitsAndAStartIsFound) {
     EXPECT_GT(tag.tangle.gli < 0 ? -gli : gli, 0.5);
   }
   const Problem problem(scene, {});
-  const Unknowns start = StartOf(problem);
+  const Unknowns start = TemplateStart(problem);
   EXPECT_EQ(start.edit.rows(), scene.num_coordinates());
   EXPECT_EQ(start.edit.cols(), 3);
   EXPECT_LT(problem.Cost(start, 1, 1), problem.Cost(UnknownsFromPoses(scene, scene.source), 1, 1));

@@ -23,7 +23,7 @@ Settings Tight() {
 // From the start of the real pipeline: near enough that both back ends go down into one basin.
 SolveResult SolveFromStart(const Scene& scene, const Settings& settings) {
   const Problem problem(scene, settings);
-  return SolveSpacetime(problem, StartOf(problem), nullptr);
+  return SolveSpacetime(problem, TemplateStart(problem), nullptr);
 }
 
 SolveResult SolveFromSource(const Scene& scene, const Settings& settings) {

@@ -1,0 +1,82 @@
+#include "tools/job.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "io/scene_glb.h"
+#include "io/settings_file.h"
+#include "io/template_file.h"
+#include "tools/report.h"
+#include "tools/version.h"
+
+namespace retarget {
+namespace {
+
+FrameRange ParseFrames(const std::string& text, int available) {
+  if (text.empty()) return {0, available};
+  int first = 0, last = 0, read = 0;
+  const bool parsed = std::sscanf(text.c_str(), "%d:%d%n", &first, &last, &read) == 2 &&
+                      read == static_cast<int>(text.size());
+  if (!parsed || first < 0 || last <= first) {
+    throw InputError(fmt::format("--frames {}: expected i:j with 0 <= i < j", text));
+  }
+  if (last > available) {
+    throw InputError(fmt::format(
+        "--frames {}: the clips have {} common output frames from their starts", text, available));
+  }
+  return {first, last};
+}
+
+}  // namespace
+
+Settings EffectiveSettings(const RetargetOptions& options) {
+  Settings settings = options.config_path.empty() ? Settings{} : ReadSettings(options.config_path);
+  for (const std::string& assignment : options.set) SetByName(&settings, assignment);
+  if (options.threads >= 0) settings.solve.threads = options.threads;
+  ParseStages(settings.solve.stages);
+  return settings;
+}
+
+Job LoadJob(const RetargetOptions& options) {
+  Job job;
+  job.input.posture = ReadTemplate(options.template_path);
+  double common = 1e300;
+  for (int f = 0; f < 2; ++f) {
+    job.clip[f] = LoadClip(options.clip[f]);
+    common = std::min(common, job.clip[f].duration() - options.clip[f].start);
+  }
+  const int available = static_cast<int>(std::floor(common * options.fps + 1e-3)) + 1;
+  job.frames = ParseFrames(options.frames, available);
+  for (int f = 0; f < 2; ++f) {
+    job.input.body[f] = job.clip[f].binding->body();
+    job.input.clip[f] = job.clip[f].Resampled(options.fps, job.frames.first, job.frames.last);
+  }
+  const double at = std::round(options.template_at * options.fps) - job.frames.first;
+  if (at < 0 || at >= job.frames.last - job.frames.first) {
+    throw InputError(fmt::format(
+        "--template-at {}: lies outside the solved frames ({:.3f} to {:.3f} s)",
+        options.template_at, job.frames.first / options.fps, (job.frames.last - 1) / options.fps));
+  }
+  job.input.template_frame = static_cast<int>(at);
+  return job;
+}
+
+void TellNotes(const Job& job) {
+  for (int f = 0; f < 2; ++f) {
+    const RigFacts& facts = job.clip[f].facts;
+    fmt::print(stderr, "clip {}: {}, profile {}, {} up {}, stature {:.2f} m\n", kFigure[f],
+               job.clip[f].options.path, facts.map.profile, facts.unit_name, facts.up,
+               job.input.body[f].stature);
+    for (const std::string& note : facts.notes) fmt::print(stderr, "  note: {}\n", note);
+  }
+}
+
+std::string SceneBytes(const Scene& scene, const std::array<Clip, 2>& clips) {
+  return FormatSceneGlb(
+      {{"a", &scene.body[0], &clips[0], kColourA}, {"b", &scene.body[1], &clips[1], kColourB}},
+      kGenerator);
+}
+
+}  // namespace retarget

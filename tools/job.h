@@ -1,0 +1,34 @@
+// What the command line asks for, read: settings, clips on one rate, the template.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "model/settings.h"
+#include "solver/retarget.h"
+#include "tools/commands.h"
+#include "tools/load_clip.h"
+
+namespace retarget {
+
+struct FrameRange {
+  int first, last;  // half-open
+};
+
+// Configuration file, then --set, then --threads. Throws InputError.
+Settings EffectiveSettings(const RetargetOptions& options);
+
+struct Job {
+  std::array<LoadedClip, 2> clip;
+  RetargetInput input;
+  FrameRange frames;
+};
+
+Job LoadJob(const RetargetOptions& options);  // throws InputError
+// What was recognised in the clips, to stderr.
+void TellNotes(const Job& job);
+
+// A scene file of two motions of the scene's bodies.
+std::string SceneBytes(const Scene& scene, const std::array<Clip, 2>& clips);
+
+}  // namespace retarget

@@ -1,0 +1,56 @@
+// `retarget simulate`: the forward simulation alone.
+#include <fmt/format.h>
+
+#include "io/settings_file.h"
+#include "tools/commands.h"
+#include "tools/files.h"
+#include "tools/job.h"
+#include "tools/report.h"
+
+namespace retarget {
+
+int RunSimulate(const RetargetOptions& options) {
+  const Settings settings = EffectiveSettings(options);
+  const Job job = LoadJob(options);
+  OutputSet output(options.out, {"source.glb", "baseline.glb"},
+                   {options.clip[0].path, options.clip[1].path, options.template_path},
+                   options.force);
+  TellNotes(job);
+  const RetargetResult prepared = Prepare(job.input, settings);
+  for (const std::string& warning : prepared.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  const Scene& scene = prepared.scene;
+  const SimulationResult simulation = Simulate(scene, settings.simulation);
+
+  const std::string bytes = SceneBytes(scene, simulation.motion);
+  const std::string source_bytes = SceneBytes(scene, scene.source);
+  const SceneMotion motion = ParseSceneGlb(bytes, "baseline.glb");
+  const SceneMotion source = ParseSceneGlb(source_bytes, "source.glb");
+  const MotionView view = ViewOfScene(motion, scene.body);
+  const MotionView source_view = ViewOfScene(source, scene.body);
+  const MeasureSubject subject = SubjectOf(scene);
+  const Metrics metrics = Measure(subject, view, source_view);
+  const Metrics source_metrics = Measure(subject, source_view, source_view);
+  output.Add("source.glb", source_bytes);
+  output.Add("baseline.glb", bytes);
+  output.Commit();
+
+  const std::vector<RequirementCheck> checks =
+      CheckRequirements(subject, metrics, settings.requirements);
+  if (options.json) {
+    const Json report = {{"simulation", SimulationJson(simulation)},
+                         {"metrics",
+                          {{"source", MetricsJson(subject, source_metrics)},
+                           {"baseline", MetricsJson(subject, metrics)}}},
+                         {"requirements", ChecksJson(checks)}};
+    fmt::print("{}\n", report.dump(1));
+  } else {
+    fmt::print("{}", MetricsTable(subject, &source_metrics, metrics, checks));
+    fmt::print("{}: {}\n{}; simulated {:.1f} s in {:.2f} s ({:.1f}x real time); written to {}\n",
+               NameOf(simulation.status), simulation.message, SettleSentence(simulation),
+               simulation.simulated, simulation.seconds, simulation.simulated / simulation.seconds,
+               options.out);
+  }
+  return simulation.status == SimulationStatus::kCompleted && AllMet(checks) ? kDone : kMissed;
+}
+
+}  // namespace retarget
