@@ -33,6 +33,7 @@ double WriteBackError(const RigMotion& written, double metres_per_unit, char up,
 inline constexpr double kWriteBackLimit = 0.005;  // m
 
 Json MetricsJson(const MeasureSubject& subject, const Metrics& metrics);
+Json PassThroughsJson(const MeasureSubject& subject, const std::vector<PassThrough>& passes);
 Json SubjectJson(const MeasureSubject& subject, const Metrics& result);
 // The subject of a report read back. Throws InputError naming `path`.
 MeasureSubject SubjectFromJson(const Json& report, const std::string& path);
