@@ -33,6 +33,8 @@ class BandedStage {
         system_(scene_.num_frames(), spans_, problem_.smoothness().weight().array().square()),
         accepted_(static_cast<size_t>(scene_.num_frames())),
         trial_(accepted_.size()),
+        accepted_terms_(accepted_.size()),
+        trial_terms_(accepted_.size()),
         accepted_cost_(accepted_.size()),
         trial_cost_(accepted_.size()),
         move_(accepted_.size()),
@@ -158,10 +160,8 @@ class BandedStage {
     ParallelFor(scene_.num_frames(), threads_, [&](int t, int thread) {
       Frame& frame = frames_[thread];
       frame.Set(scene_, x, t, false);
-      problem_.EvaluateFrame(frame, context_.contact_factor, false, &rows_[thread]);
-      trial_cost_[t] = rows_[thread].HalfSquares() +
-                       problem_.smoothness().HalfSquares(x.edit, t, t + 1, false) +
-                       problem_.smoothness().HalfSquares(x.edit, t, t + 1, true);
+      trial_cost_[t] = problem_.FrameCost(frame, x.edit, context_.contact_factor, &rows_[thread],
+                                          &trial_terms_[t]);
       for (int f = 0; f < 2; ++f) trial_[t][f] = frame.posed[f].node;
       if (accepted_[t][0].empty()) return;
       move_[t] = LargestDisplacement(accepted_[t], trial_[t]);
@@ -176,12 +176,17 @@ class BandedStage {
     std::swap(accepted_, trial_);
     trial_.resize(accepted_.size());
     accepted_cost_ = trial_cost_;
+    std::swap(accepted_terms_, trial_terms_);
   }
 
   bool Report(double cost, Iteration* iteration) {
     iteration->stage = context_.stage;
     iteration->index = result_->iterations;
     iteration->cost = cost;
+    iteration->term_cost.assign(accepted_terms_[0].size(), 0);
+    for (const std::vector<double>& of_frame : accepted_terms_) {
+      for (size_t k = 0; k < of_frame.size(); ++k) iteration->term_cost[k] += of_frame[k];
+    }
     MeasureIteration(problem_, result_->unknowns, threads_, iteration);
     iteration->seconds = SecondsNow() - context_.started;
     result_->history.push_back(*iteration);
@@ -199,6 +204,7 @@ class BandedStage {
   BandedSystem system_;
   BandedStep step_;
   std::vector<NodePositions> accepted_, trial_;
+  std::vector<std::vector<double>> accepted_terms_, trial_terms_;  // costs, per frame and term
   std::vector<double> accepted_cost_, trial_cost_;
   std::vector<double> move_;  // of the last trial, per frame (m)
   std::vector<char> tunnelled_;

@@ -228,6 +228,8 @@ class StageCallback : public ceres::IterationCallback {
     iteration.index = result_->iterations;
     iteration.cost = summary.cost;
     iteration.step_m = cache_.last_step_m();
+    iteration.term_cost =
+        context_.problem->TermCosts(result_->unknowns, context_.contact_factor, threads_);
     MeasureIteration(*context_.problem, result_->unknowns, threads_, &iteration);
     iteration.seconds = SecondsNow() - context_.started;
     result_->history.push_back(iteration);

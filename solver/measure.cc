@@ -2,110 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
-#include "model/capsule.h"
 #include "model/path.h"
 #include "model/so3.h"
-#include "solver/terms/ground.h"
-#include "solver/terms/penetration.h"
 
 namespace retarget {
 namespace {
 
-constexpr int kSubSamples = 4;        // instants per frame interval
-constexpr double kPassJump = 0.5;     // turns
-constexpr double kPassReach = 0.6;    // m; further apart no pair can jump between instants
+constexpr double kDeep = 0.01;        // m
 constexpr double kSlideSpeed = 0.01;  // m/s
 
-struct Depth {
-  double depth = 0;
-  int node_1 = 0, node_2 = 0;
-};
-
-double DepthOf(const Body& body_1, const std::vector<Vec3>& p, int i, const Body& body_2,
-               const std::vector<Vec3>& q, int j) {
-  const double reach = body_1.nodes[i].radius + body_2.nodes[j].radius;
-  const Vec3 &a = p[body_1.nodes[i].parent], &b = p[i], &c = q[body_2.nodes[j].parent], &d = q[j];
-  const double bound = 0.5 * ((b - a).norm() + (d - c).norm()) + reach;
-  if ((0.5 * (a + b - c - d)).squaredNorm() > bound * bound) return -1;
-  return CapsuleDepth(ClosestPointsOfSegments(a, b, c, d), body_1.nodes[i].radius,
-                      body_2.nodes[j].radius);
-}
-
-Depth DeepestBetween(const std::array<Body, 2>& body, const NodePositions& node) {
-  Depth deepest;
-  for (int i = 1; i < body[0].num_nodes(); ++i) {
-    for (int j = 1; j < body[1].num_nodes(); ++j) {
-      const double depth = DepthOf(body[0], node[0], i, body[1], node[1], j);
-      if (depth > deepest.depth) deepest = {depth, i, j};
-    }
-  }
-  return deepest;
-}
-
-double DeepestWithin(const Body& body, const std::vector<std::pair<int, int>>& pairs,
-                     const std::vector<Vec3>& node) {
-  double deepest = 0;
-  for (const auto& [i, j] : pairs)
-    deepest = std::max(deepest, DepthOf(body, node, i, body, node, j));
-  return deepest;
-}
-
+// The metrics are extremes, shares and means of the series.
 class Measurement {
  public:
-  Measurement(const MeasureSubject& subject, const MotionView& motion, const MotionView& source)
-      : subject_(subject), motion_(motion), source_(source) {
-    for (const HeldTangle& held : subject.tangles) {
-      paths_.push_back({NodesOn(subject.body[0], held.tag.tangle.a),
-                        NodesOn(subject.body[1], held.tag.tangle.b)});
-    }
-    for (int f = 0; f < 2; ++f) {
-      self_pairs_[f] = SelfPairs(subject.body[f]);
-      radius_[f] = NodeRadii(subject.body[f]);
-    }
-  }
+  Measurement(const MeasureSubject& subject, const FrameSeries& series,
+              const std::vector<NodePositions>& source)
+      : subject_(subject), series_(series), frames_(series.node), source_frames_(source) {}
 
   Metrics Run() {
-    out_.tangles.assign(paths_.size(), {1e9, 1e9, 0, 0});
-    out_.hold_m.assign(subject_.holds.size(), 0);
-    out_.hold_frame.assign(subject_.holds.size(), 0);
-    PostureSample previous, now;
-    int frames_deep = 0, frames_kept = 0;
-    for (int t = 0; t < motion_.num_frames; ++t) {
-      for (int k = 0; k < (t + 1 < motion_.num_frames ? kSubSamples : 1); ++k) {
-        motion_.at(t + static_cast<double>(k) / kSubSamples, &now);
-        const bool on_frame = k == 0;
-        const bool kept = MeasureTangles(now, t, on_frame);
-        const bool deep = MeasurePenetration(now, t, on_frame);
-        MeasureHolds(now, t);
-        MeasureFigures(now, on_frame);
-        if (on_frame) {
-          frames_deep += deep;
-          frames_kept += kept;
-          frames_.push_back(now.node);
-        }
-        if (t > 0 || k > 0) {
-          const GliJump jump = LargestGliJump(subject_.body, previous.node, now.node, kPassReach);
-          if (jump.size > kPassJump) {
-            const int frame = on_frame ? t - 1 : t;
-            out_.pass_throughs.push_back({frame, jump.node_a, jump.node_b});
-          }
-        }
-        std::swap(previous, now);
-      }
-    }
-    out_.tangle_kept_percent = 100.0 * frames_kept / motion_.num_frames;
-    out_.penetration_over_1cm_percent = 100.0 * frames_deep / motion_.num_frames;
-    out_.smallest_gli = out_.smallest_gli_between = paths_.empty() ? 0 : 1e9;
-    for (const TangleMetrics& t : out_.tangles) {
-      out_.smallest_gli = std::min(out_.smallest_gli, t.min_signed_gli);
-      out_.smallest_gli_between = std::min(out_.smallest_gli_between, t.min_signed_gli_between);
-    }
-    PostureSample sample;
-    for (int t = 0; t < source_.num_frames; ++t) {
-      source_.at(t, &sample);
-      source_frames_.push_back(sample.node);
-    }
+    MeasureTangles();
+    MeasureExtremes();
+    out_.pass_throughs = series_.pass_throughs;
     for (int f = 0; f < 2; ++f) {
       MeasureFeet(f);
       MeasureEdit(f);
@@ -115,70 +34,73 @@ class Measurement {
   }
 
  private:
-  bool MeasureTangles(const PostureSample& now, int t, bool on_frame) {
-    bool kept = true;
-    for (size_t k = 0; k < paths_.size(); ++k) {
-      const double gli =
-          subject_.tangles[k].sign *
-          PolylineGli(PointsOn(now.node[0], paths_[k][0]), PointsOn(now.node[1], paths_[k][1]));
-      TangleMetrics& m = out_.tangles[k];
-      m.min_signed_gli_between = std::min(m.min_signed_gli_between, gli);
-      if (!on_frame) continue;
-      if (gli < m.min_signed_gli) {
-        m.min_signed_gli = gli;
-        m.worst_frame = t;
-      }
-      if (gli <= kTangleThreshold) {
+  void MeasureTangles() {
+    const double none = std::numeric_limits<double>::max();
+    out_.tangles.assign(subject_.tangles.size(), {none, none, 0, 0});
+    int kept = 0;
+    for (int t = 0; t < series_.num_frames(); ++t) {
+      bool all = true;
+      for (size_t k = 0; k < out_.tangles.size(); ++k) {
+        TangleMetrics& m = out_.tangles[k];
+        const double gli = series_.at[t].gli[k];
+        if (gli < m.min_signed_gli) {
+          m.min_signed_gli = gli;
+          m.worst_frame = t;
+        }
+        m.min_signed_gli_between = std::min(m.min_signed_gli_between, gli);
+        if (t + 1 < series_.num_frames()) {
+          m.min_signed_gli_between = std::min(m.min_signed_gli_between, series_.between[t].gli[k]);
+        }
+        if (gli > kTangleThreshold) continue;
         ++m.frames_below_half;
-        kept = false;
+        all = false;
       }
+      kept += all;
     }
-    return kept;
+    out_.tangle_kept_percent = 100.0 * kept / series_.num_frames();
+    out_.smallest_gli = out_.smallest_gli_between = out_.tangles.empty() ? 0 : none;
+    for (const TangleMetrics& t : out_.tangles) {
+      out_.smallest_gli = std::min(out_.smallest_gli, t.min_signed_gli);
+      out_.smallest_gli_between = std::min(out_.smallest_gli_between, t.min_signed_gli_between);
+    }
   }
 
-  bool MeasurePenetration(const PostureSample& now, int t, bool on_frame) {
-    const Depth deepest = DeepestBetween(subject_.body, now.node);
-    if (deepest.depth > out_.penetration_between_m) {
-      out_.penetration_between_m = deepest.depth;
+  void MeasureExtremes() {
+    out_.hold_m.assign(subject_.holds.size(), 0);
+    out_.hold_frame.assign(subject_.holds.size(), 0);
+    int deep = 0;
+    for (int t = 0; t < series_.num_frames(); ++t) {
+      Include(series_.at[t], t);
+      if (t + 1 < series_.num_frames()) Include(series_.between[t], t);
+      const double depth = series_.at[t].penetration.depth_m;
+      out_.penetration_m = std::max(out_.penetration_m, depth);
+      deep += depth > kDeep;
+    }
+    out_.penetration_over_1cm_percent = 100.0 * deep / series_.num_frames();
+  }
+
+  // Takes the extremes of one instant, or of those between frame t and the next.
+  void Include(const InstantValues& values, int t) {
+    if (values.penetration.depth_m > out_.penetration_between_m) {
+      out_.penetration_between_m = values.penetration.depth_m;
       out_.penetration_frame = t;
-      out_.penetration_node_a = deepest.node_1;
-      out_.penetration_node_b = deepest.node_2;
+      out_.penetration_node_a = values.penetration.node_1;
+      out_.penetration_node_b = values.penetration.node_2;
     }
-    if (on_frame) out_.penetration_m = std::max(out_.penetration_m, deepest.depth);
-    return deepest.depth > 0.01;
-  }
-
-  void MeasureHolds(const PostureSample& now, int t) {
-    const auto at = [&](const HoldPoint& p) -> Vec3 {
-      if (p.figure == kWorld) return p.offset;
-      return now.node[p.figure][p.node] + now.rotation[p.figure][p.node] * p.offset;
-    };
-    for (size_t k = 0; k < subject_.holds.size(); ++k) {
-      const double error = (at(subject_.holds[k].from) - at(subject_.holds[k].to)).norm();
-      if (error > out_.hold_m[k]) {
-        out_.hold_m[k] = error;
-        out_.hold_frame[k] = t;
-      }
+    for (size_t k = 0; k < out_.hold_m.size(); ++k) {
+      if (values.hold_m[k] <= out_.hold_m[k]) continue;
+      out_.hold_m[k] = values.hold_m[k];
+      out_.hold_frame[k] = t;
     }
-  }
-
-  void MeasureFigures(const PostureSample& now, bool on_frame) {
     for (int f = 0; f < 2; ++f) {
-      const Body& body = subject_.body[f];
+      const FigureValues& v = values.figure[f];
       FigureMetrics& m = out_.figure[f];
-      for (int n = 0; n < body.num_nodes(); ++n) {
-        m.floor_m = std::max(m.floor_m, radius_[f][n] - now.node[f][n].y());
-      }
-      for (int n = 1; n < body.num_nodes(); ++n) {
-        if (body.nodes[n].name.find("shoulder") != std::string::npos) continue;
-        const double length = subject_.length[f][n];
-        const double is = (now.node[f][n] - now.node[f][body.nodes[n].parent]).norm();
-        m.length_error_percent = std::max(m.length_error_percent, 100 * std::abs(is / length - 1));
-      }
-      if (on_frame) {
-        m.self_penetration_m =
-            std::max(m.self_penetration_m, DeepestWithin(body, self_pairs_[f], now.node[f]));
-      }
+      m.self_penetration_m = std::max(m.self_penetration_m, v.self_penetration.depth_m);
+      m.length_error_percent = std::max(m.length_error_percent, v.length_error_percent);
+      if (v.floor_m <= m.floor_m) continue;
+      m.floor_m = v.floor_m;
+      m.floor_frame = t;
+      m.floor_node = v.floor_node;
     }
   }
 
@@ -193,10 +115,10 @@ class Measurement {
         if (drift > m.foot_drift_m) {
           m.foot_drift_m = drift;
           m.foot_drift_frame = t;
+          m.foot_drift_node = c.node;
         }
         if (t == c.first) continue;
-        const double speed =
-            (frames_[t][f][c.node] - frames_[t - 1][f][c.node]).norm() * motion_.fps;
+        const double speed = PlantedSpeed(series_, f, c, t);
         m.foot_speed_max = std::max(m.foot_speed_max, speed);
         ++stance;
         sliding += speed > kSlideSpeed;
@@ -209,15 +131,16 @@ class Measurement {
   void MeasureEdit(int f) {
     const Body& body = subject_.body[f];
     std::vector<char> tagged(body.nodes.size(), 0);
-    for (const auto& path : paths_) {
-      for (const int n : path[f]) tagged[n] = 1;
+    for (const HeldTangle& held : subject_.tangles) {
+      const Path& path = f == 0 ? held.tag.tangle.a : held.tag.tangle.b;
+      for (const int n : NodesOn(body, path)) tagged[n] = 1;
     }
     FigureMetrics& m = out_.figure[f];
     m.path_m.assign(body.nodes.size(), 0);
     double sum = 0;
     int count = 0;
-    const int frames = std::min(motion_.num_frames, source_.num_frames);
-    for (int t = 0; t < frames; ++t) {
+    const size_t frames = std::min(frames_.size(), source_frames_.size());
+    for (size_t t = 0; t < frames; ++t) {
       const std::vector<Vec3>&p = frames_[t][f], &q = source_frames_[t][f];
       double c = 0, s = 0;
       for (size_t n = 1; n < p.size(); ++n) {
@@ -240,25 +163,14 @@ class Measurement {
     m.joint_edit_deg = JointEdit(f, frames);
   }
 
-  // Mean turn of the joints against the source (deg), over links that carry a node.
-  double JointEdit(int f, int frames) const {
-    const Body& body = subject_.body[f];
-    PostureSample p, q;
+  // Mean turn of the joints against the source (deg).
+  double JointEdit(int f, size_t frames) const {
     double sum = 0;
-    int count = 0;
-    for (int t = 0; t < frames; ++t) {
-      motion_.at(t, &p);
-      source_.at(t, &q);
-      for (int n = 1; n < body.num_nodes(); ++n) {
-        if (body.nodes[n].link == body.nodes[body.nodes[n].parent].link) continue;
-        const int parent = body.nodes[n].parent;
-        const Quat local_p = p.rotation[f][parent].conjugate() * p.rotation[f][n];
-        const Quat local_q = q.rotation[f][parent].conjugate() * q.rotation[f][n];
-        sum += LogSo3(local_q.conjugate() * local_p).norm() / kDegree;
-        ++count;
-      }
+    for (const std::vector<double>& joint : series_.tracking_deg[f]) {
+      sum = std::accumulate(joint.begin(), joint.begin() + static_cast<long>(frames), sum);
     }
-    return count > 0 ? sum / count : 0;
+    const size_t count = frames * series_.tracking_deg[f].size();
+    return count > 0 ? sum / static_cast<double>(count) : 0;
   }
 
   static double MeanJerk(const std::vector<NodePositions>& frames, int f, double fps) {
@@ -277,63 +189,31 @@ class Measurement {
 
   void MeasureJerk() {
     std::array<double, 2> source;
-    for (int f = 0; f < 2; ++f) source[f] = MeanJerk(source_frames_, f, motion_.fps);
+    for (int f = 0; f < 2; ++f) source[f] = MeanJerk(source_frames_, f, series_.fps);
     const double larger = std::max(source[0], source[1]);
     for (int f = 0; f < 2; ++f) {
       FigureMetrics& m = out_.figure[f];
-      m.jerk = MeanJerk(frames_, f, motion_.fps);
+      m.jerk = MeanJerk(frames_, f, series_.fps);
       m.jerk_ratio_own = source[f] > 0 ? m.jerk / source[f] : 1;
       m.jerk_ratio_larger = larger > 0 ? m.jerk / larger : 1;
     }
   }
 
   const MeasureSubject& subject_;
-  const MotionView& motion_;
-  const MotionView& source_;
-  std::vector<std::array<std::vector<int>, 2>> paths_;
-  std::array<std::vector<std::pair<int, int>>, 2> self_pairs_;
-  std::array<std::vector<double>, 2> radius_;
-  std::vector<NodePositions> frames_, source_frames_;
+  const FrameSeries& series_;
+  const std::vector<NodePositions>&frames_, &source_frames_;
   Metrics out_;
 };
 
 }  // namespace
 
-MotionView ViewOf(const std::array<Body, 2>& body, const std::array<Clip, 2>& clips) {
-  MotionView view;
-  view.num_frames = clips[0].num_frames();
-  view.fps = clips[0].fps;
-  view.at = [&body, &clips](double frame, PostureSample* sample) {
-    for (int f = 0; f < 2; ++f) {
-      const int last = clips[f].num_frames() - 1;
-      const int k = std::clamp(static_cast<int>(frame), 0, last);
-      const double u = frame - k;
-      const PosedBody posed = PoseBody(
-          body[f], u > 0 && k < last ? Interpolate(clips[f].frames[k], clips[f].frames[k + 1], u)
-                                     : clips[f].frames[k]);
-      sample->node[f] = posed.node;
-      sample->rotation[f].clear();
-      for (const Node& node : body[f].nodes) {
-        sample->rotation[f].push_back(Quat(posed.rotation[node.link]));
-      }
-    }
-  };
-  return view;
-}
-
-MeasureSubject SubjectOf(const Scene& scene) {
-  MeasureSubject subject{scene.body, {}, scene.tangles, scene.holds, scene.contacts};
-  for (int f = 0; f < 2; ++f) {
-    subject.length[f].push_back(0);
-    for (int n = 1; n < scene.body[f].num_nodes(); ++n) {
-      subject.length[f].push_back(scene.body[f].SegmentLength(n));
-    }
-  }
-  return subject;
+Metrics MetricsOf(const MeasureSubject& subject, const FrameSeries& series,
+                  const std::vector<NodePositions>& source) {
+  return Measurement(subject, series, source).Run();
 }
 
 Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const MotionView& source) {
-  return Measurement(subject, motion, source).Run();
+  return MetricsOf(subject, MeasureSeries(subject, motion, source), NodesOf(source));
 }
 
 bool AllMet(const std::vector<RequirementCheck>& checks) {

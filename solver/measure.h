@@ -2,43 +2,13 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "model/contact.h"
 #include "model/settings.h"
-#include "solver/guard.h"
-#include "solver/scene.h"
+#include "solver/series.h"
 
 namespace retarget {
-
-// One instant of a motion: every node's place (m) and the rotation of the link that carries it.
-struct PostureSample {
-  NodePositions node;
-  std::array<std::vector<Quat>, 2> rotation;
-};
-
-// A motion that can be looked at between its frames too.
-struct MotionView {
-  int num_frames = 0;
-  double fps = 30;
-  std::function<void(double frame, PostureSample* sample)> at;
-};
-
-// The motion of two clips: linear in the root, spherical-linear in the rotations. The bodies and
-// clips must outlive the view.
-MotionView ViewOf(const std::array<Body, 2>& body, const std::array<Clip, 2>& clips);
-
-// What is measured against: tags, contacts, holds and bodies of the scene.
-struct MeasureSubject {
-  std::array<Body, 2> body;                   // tree and radii
-  std::array<std::vector<double>, 2> length;  // of the segment that ends at each node (m)
-  std::vector<HeldTangle> tangles;
-  std::vector<Hold> holds;
-  std::array<std::vector<Contact>, 2> contacts;
-};
-MeasureSubject SubjectOf(const Scene& scene);
 
 struct TangleMetrics {
   double min_signed_gli = 0;          // over the frames (turns)
@@ -47,16 +17,12 @@ struct TangleMetrics {
   int worst_frame = 0;
 };
 
-struct PassThrough {
-  int frame = 0;  // the jump lies between this frame and the next
-  int node_a = 0, node_b = 0;
-};
-
 struct FigureMetrics {
   double self_penetration_m = 0;
   double floor_m = 0;
+  int floor_frame = 0, floor_node = 0;
   double foot_drift_m = 0;
-  int foot_drift_frame = 0;
+  int foot_drift_frame = 0, foot_drift_node = 0;
   double foot_speed_max = 0;               // m/s, inside contacts
   double foot_speed_over_1cm_percent = 0;  // of stance frames
   double pose_error_cm = 0;                // mean over nodes of no tagged path
@@ -87,6 +53,9 @@ struct Metrics {
 // Measures `motion`; `source` (the placed, unedited clips) is what edits and jerk are compared
 // with.
 Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const MotionView& source);
+// The same from a series that has been measured already, and the source's node places per frame.
+Metrics MetricsOf(const MeasureSubject& subject, const FrameSeries& series,
+                  const std::vector<NodePositions>& source);
 
 // A requirement and whether it is met; `where` names frame and limb of the worst.
 struct RequirementCheck {

@@ -1,6 +1,8 @@
 #include "solver/problem.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "solver/parallel.h"
 #include "solver/terms/foot_lock.h"
@@ -13,9 +15,21 @@
 
 namespace retarget {
 
+namespace {
+
+Settings WithUnitSmoothness(Settings settings) {
+  settings.weights.smoothness = settings.weights.root_smoothness = 1;
+  return settings;
+}
+
+}  // namespace
+
 // The table of contents of the objective.
 Problem::Problem(const Scene& scene, const Settings& settings)
-    : scene_(&scene), settings_(settings), smoothness_(scene, settings) {
+    : scene_(&scene),
+      settings_(settings),
+      smoothness_(scene, settings),
+      natural_smoothness_(scene, WithUnitSmoothness(settings)) {
   const Weights& w = settings.weights;
   const auto add = [&](std::unique_ptr<Term> term, double weight) {
     terms_.push_back(std::move(term));
@@ -52,45 +66,70 @@ void Problem::EvaluateFrame(const Frame& frame, double contact_factor, bool deri
   }
 }
 
-double Problem::Cost(const Unknowns& unknowns, double contact_factor, int threads) const {
-  const int n = scene_->num_frames();
-  std::vector<double> cost(static_cast<size_t>(n));
+double Problem::FrameCost(const Frame& frame, const MatX& edit, double contact_factor, Rows* rows,
+                          std::vector<double>* by_term) const {
+  by_term->clear();
+  for (size_t k = 0; k < terms_.size(); ++k) {
+    const double weight = weight_[k] * (terms_[k]->staged() ? contact_factor : 1);
+    rows->Reset(frame, false);
+    if (weight != 0) terms_[k]->Evaluate(frame, rows);
+    by_term->push_back(weight * weight * rows->HalfSquares());
+  }
+  for (const bool root : {false, true}) {
+    by_term->push_back(smoothness_.HalfSquares(edit, frame.t, frame.t + 1, root));
+  }
+  return std::accumulate(by_term->begin(), by_term->end(), 0.0);
+}
+
+std::vector<double> Problem::TermCosts(const Unknowns& unknowns, double contact_factor,
+                                       int threads) const {
+  std::vector<std::vector<double>> cost(static_cast<size_t>(scene_->num_frames()));
   std::vector<Frame> frame(static_cast<size_t>(threads));
   std::vector<Rows> rows(static_cast<size_t>(threads));
-  ParallelFor(n, threads, [&](int t, int thread) {
+  ParallelFor(scene_->num_frames(), threads, [&](int t, int thread) {
     frame[thread].Set(*scene_, unknowns, t, false);
-    EvaluateFrame(frame[thread], contact_factor, false, &rows[thread]);
-    cost[t] = rows[thread].HalfSquares() + smoothness_.HalfSquares(unknowns.edit, t, t + 1, false) +
-              smoothness_.HalfSquares(unknowns.edit, t, t + 1, true);
+    FrameCost(frame[thread], unknowns.edit, contact_factor, &rows[thread], &cost[t]);
   });
-  double sum = 0;
-  for (const double c : cost) sum += c;
+  std::vector<double> sum(terms_.size() + 2, 0);
+  for (const std::vector<double>& of_frame : cost) {
+    for (size_t k = 0; k < sum.size(); ++k) sum[k] += of_frame[k];
+  }
   return sum;
+}
+
+double Problem::Cost(const Unknowns& unknowns, double contact_factor, int threads) const {
+  const std::vector<double> costs = TermCosts(unknowns, contact_factor, threads);
+  return std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
 std::vector<TermCost> Problem::CostByTerm(const Unknowns& unknowns) const {
   std::vector<TermCost> costs;
+  for (size_t k = 0; k < terms_.size(); ++k) {
+    costs.push_back({terms_[k]->name(), terms_[k]->unit(), weight_[k]});
+  }
+  costs.push_back({"smoothness", "rad", settings_.weights.smoothness});
+  costs.push_back({"root_smoothness", "m, rad", settings_.weights.root_smoothness});
+  const auto enlarge = [](double r, double* largest) {
+    *largest = std::max(*largest, std::abs(r));
+  };
   Frame frame;
   Rows rows;
-  for (size_t k = 0; k < terms_.size(); ++k) {
-    TermCost cost{terms_[k]->name(), terms_[k]->unit(), weight_[k], 0, 0};
-    for (int t = 0; t < scene_->num_frames(); ++t) {
-      frame.Set(*scene_, unknowns, t, false);
+  for (int t = 0; t < scene_->num_frames(); ++t) {
+    frame.Set(*scene_, unknowns, t, false);
+    for (size_t k = 0; k < terms_.size(); ++k) {
       rows.Reset(frame, false);
       terms_[k]->Evaluate(frame, &rows);
-      cost.cost += weight_[k] * weight_[k] * rows.HalfSquares();
-      for (const double r : rows.residual()) cost.largest = std::max(cost.largest, std::abs(r));
-      for (const auto& c : rows.coordinates())
-        cost.largest = std::max(cost.largest, std::abs(c.residual));
+      costs[k].natural_cost += rows.HalfSquares();
+      for (const double r : rows.residual()) enlarge(r, &costs[k].largest);
+      for (const auto& c : rows.coordinates()) enlarge(c.residual, &costs[k].largest);
     }
-    costs.push_back(cost);
+    for (const bool root : {false, true}) {
+      TermCost& cost = costs[terms_.size() + root];
+      cost.natural_cost += natural_smoothness_.HalfSquares(unknowns.edit, t, t + 1, root);
+      enlarge(natural_smoothness_.Largest(unknowns.edit, t, root), &cost.largest);
+    }
   }
-  const int n = scene_->num_frames();
-  const Weights& w = settings_.weights;
-  costs.push_back(
-      {"smoothness", "rad", w.smoothness, smoothness_.HalfSquares(unknowns.edit, 0, n, false), 0});
-  costs.push_back({"root_smoothness", "m, rad", w.root_smoothness,
-                   smoothness_.HalfSquares(unknowns.edit, 0, n, true), 0});
+  for (TermCost& cost : costs) cost.cost = cost.weight * cost.weight * cost.natural_cost;
   return costs;
 }
 

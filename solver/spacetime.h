@@ -19,6 +19,8 @@ struct Iteration {
   double deepest_penetration_m = 0;
   double hold_error_m = 0;
   double seconds = 0;  // since the start of the solve
+  // Shares of the cost by term (weighted as in this stage), in the order of Problem::CostByTerm.
+  std::vector<double> term_cost;
 };
 
 enum class SolveStatus { kConverged, kIterationLimit, kTimeLimit, kInterrupted };

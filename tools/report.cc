@@ -146,6 +146,16 @@ Json MetricsJson(const MeasureSubject& subject, const Metrics& m) {
           {"b", FigureJson(subject.body[1], m.figure[1])}};
 }
 
+Json PassThroughsJson(const MeasureSubject& subject, const std::vector<PassThrough>& passes) {
+  Json out = Json::array();
+  for (const PassThrough& p : passes) {
+    out.push_back({{"frame", p.frame},
+                   {"a", subject.body[0].nodes[p.node_a].name},
+                   {"b", subject.body[1].nodes[p.node_b].name}});
+  }
+  return out;
+}
+
 Json SubjectJson(const MeasureSubject& subject, const Metrics& result) {
   Json out;
   out["tangles"] = Json::array();
@@ -161,12 +171,7 @@ Json SubjectJson(const MeasureSubject& subject, const Metrics& result) {
          {"min_signed_gli_between_frames", result.tangles[k].min_signed_gli_between},
          {"frames_below_half", result.tangles[k].frames_below_half}});
   }
-  out["pass_throughs"] = Json::array();
-  for (const PassThrough& p : result.pass_throughs) {
-    out["pass_throughs"].push_back({{"frame", p.frame},
-                                    {"a", subject.body[0].nodes[p.node_a].name},
-                                    {"b", subject.body[1].nodes[p.node_b].name}});
-  }
+  out["pass_throughs"] = PassThroughsJson(subject, result.pass_throughs);
   for (int f = 0; f < 2; ++f) {
     const Body& body = subject.body[f];
     Json& figure = out["bodies"][kFigure[f]];

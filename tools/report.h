@@ -37,6 +37,7 @@ Json SimulationJson(const SimulationResult& simulation);
 std::string SettleSentence(const SimulationResult& simulation);
 
 Json MetricsJson(const MeasureSubject& subject, const Metrics& metrics);
+Json PassThroughsJson(const MeasureSubject& subject, const std::vector<PassThrough>& passes);
 Json SubjectJson(const MeasureSubject& subject, const Metrics& result);
 // The subject of a report read back. Throws InputError naming `path`.
 MeasureSubject SubjectFromJson(const Json& report, const std::string& path);

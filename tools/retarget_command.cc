@@ -96,6 +96,8 @@ Json InputsJson(const RetargetOptions& options, const Job& job) {
 Json SolveJson(const RetargetResult& result) {
   Json history = Json::array();
   for (const Iteration& i : result.solve.history) {
+    Json terms;
+    for (size_t k = 0; k < i.term_cost.size(); ++k) terms[result.costs[k].name] = i.term_cost[k];
     history.push_back({{"stage", i.stage},
                        {"iteration", i.index},
                        {"cost", i.cost},
@@ -103,7 +105,8 @@ Json SolveJson(const RetargetResult& result) {
                        {"smallest_gli", i.smallest_gli},
                        {"deepest_penetration_m", i.deepest_penetration_m},
                        {"hold_error_m", i.hold_error_m},
-                       {"seconds", i.seconds}});
+                       {"seconds", i.seconds},
+                       {"terms", terms}});
   }
   Json terms = Json::array();
   for (const TermCost& c : result.costs) {
@@ -111,6 +114,7 @@ Json SolveJson(const RetargetResult& result) {
                      {"unit", c.unit},
                      {"weight", c.weight},
                      {"cost", c.cost},
+                     {"natural_cost", c.natural_cost},
                      {"largest", c.largest}});
   }
   constexpr const char* kStatus[] = {"converged", "iteration limit", "time limit", "interrupted"};

@@ -41,6 +41,17 @@ double Smoothness::HalfSquares(const MatX& edit, int first, int last, bool root)
   return 0.5 * sum;
 }
 
+double Smoothness::Largest(const MatX& edit, int t, bool root) const {
+  if (t < 1 || t + 1 >= edit.cols()) return 0;
+  double largest = 0;
+  for (int c = 0; c < weight_.size(); ++c) {
+    if (is_root_[static_cast<size_t>(c)] != root) continue;
+    const double r = weight_[c] * (edit(c, t - 1) - 2 * edit(c, t) + edit(c, t + 1));
+    largest = std::max(largest, std::abs(r));
+  }
+  return largest;
+}
+
 void Smoothness::AddGradient(const MatX& edit, int t, Eigen::Ref<VecX> g) const {
   const int n = static_cast<int>(edit.cols());
   for (int centre = std::max(t - 1, 1); centre <= std::min(t + 1, n - 2); ++centre) {

@@ -19,6 +19,8 @@ class Smoothness {
   bool IsRoot(int coordinate) const { return is_root_[coordinate]; }
   // Half the sum of squares over the rows centred on frames [first, last), root and joints apart.
   double HalfSquares(const MatX& edit, int first, int last, bool root) const;
+  // Largest residual centred on frame t.
+  double Largest(const MatX& edit, int t, bool root) const;
   // Gradient of the cost by the coordinates of frame t is added to g. [coordinates]
   void AddGradient(const MatX& edit, int t, Eigen::Ref<VecX> g) const;
   // Coefficient of the normal equations between frames t and t + lag (lag 0, 1, 2), to be
