@@ -75,7 +75,7 @@ TEST(TermCost, HistoryHasTheSharesOfEveryIteration) {
     Settings settings;
     settings.solve.backend = backend;
     const Problem problem(scene, settings);
-    const SolveResult result = SolveSpacetime(problem, StartOf(problem), {});
+    const SolveResult result = SolveSpacetime(problem, TemplateStart(problem), {});
     ASSERT_GE(result.history.size(), 3u) << backend;
     for (const Iteration& i : result.history) {
       EXPECT_NEAR(SumOf(i.term_cost), i.cost, 1e-9 * i.cost) << backend << " " << i.index;
