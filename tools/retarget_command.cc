@@ -15,7 +15,7 @@
 #include "solver/parallel.h"
 #include "tools/commands.h"
 #include "tools/files.h"
-#include "tools/report.h"
+#include "tools/metrics_table.h"
 #include "tools/version.h"
 
 namespace retarget {
@@ -234,19 +234,17 @@ int RunRetarget(const RetargetOptions& options) {
   for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   // Measure what is written, as it would be read back.
-  const std::string scene_bytes = SceneBytes(result, result.solved);
-  const std::string source_bytes = SceneBytes(result, result.scene.source);
-  const SceneMotion scene = ParseSceneGlb(scene_bytes, "scene.glb");
-  const SceneMotion source = ParseSceneGlb(source_bytes, "source.glb");
-  const MotionView scene_view = ViewOfScene(scene, result.scene.body);
-  const MotionView source_view = ViewOfScene(source, result.scene.body);
   const MeasureSubject subject = SubjectOf(result.scene);
-  const Metrics metrics = Measure(subject, scene_view, source_view);
-  const Metrics source_metrics = Measure(subject, source_view, source_view);
+  MeasuredScene source(SceneBytes(result, result.scene.source), "source.glb", subject.body);
+  MeasuredScene scene(SceneBytes(result, result.solved), "scene.glb", subject.body);
+  source.Measure(subject, source);
+  scene.Measure(subject, source);
+  const Metrics* baseline = nullptr;  // of the simulated run, where there is one
+  const Metrics& metrics = scene.metrics();
   std::vector<RequirementCheck> checks = CheckRequirements(subject, metrics, settings.requirements);
   std::array<WrittenRig, 2> rig;
   for (int f = 0; f < 2; ++f) {
-    rig[f] = WriteRig(job, result, f, scene_view);
+    rig[f] = WriteRig(job, result, f, scene.view());
     checks.push_back({std::string("write-back ") + kFigure[f], rig[f].error_m, kWriteBackLimit, "m",
                       rig[f].error_m <= kWriteBackLimit, ""});
   }
@@ -278,9 +276,7 @@ int RunRetarget(const RetargetOptions& options) {
           job.clip[f].file.motion.rig.joints[pair.joint].name;
     }
   }
-  report["metrics"] = {{"source", MetricsJson(subject, source_metrics)},
-                       {"baseline", nullptr},
-                       {"result", MetricsJson(subject, metrics)}};
+  report["metrics"] = ThreeMetricsJson(subject, source.metrics(), baseline, metrics);
   report["requirements"] = ChecksJson(checks);
   report["warnings"] = result.warnings;
   report["literal_tangles"] = result.tangles.literal.size();
@@ -297,8 +293,8 @@ int RunRetarget(const RetargetOptions& options) {
     report["configuration"][key] = value;
   });
 
-  output.Add("scene.glb", scene_bytes);
-  output.Add("source.glb", source_bytes);
+  output.Add("scene.glb", scene.bytes());
+  output.Add("source.glb", source.bytes());
   for (int f = 0; f < 2; ++f) output.Add(std::string(kFigure[f]) + ".bvh", rig[f].bytes);
   output.Add("report.json", report.dump(1) + "\n");
   output.Add("config.yaml", FormatSettings(settings));
@@ -308,7 +304,7 @@ int RunRetarget(const RetargetOptions& options) {
     fmt::print("{}\n", report.dump(1));
     return exit_code;
   }
-  fmt::print("{}", MetricsTable(subject, &source_metrics, metrics, checks));
+  fmt::print("{}", MetricsTable(subject, source.metrics(), baseline, metrics, checks));
   fmt::print(
       "{} frames in {:.2f} s ({:.0f} frames/s, {} iterations), start {:.2f} s; written to {}\n",
       result.scene.num_frames(), result.solve.seconds,
