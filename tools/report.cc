@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "io/scene_glb.h"
 #include "tools/files.h"
 
 namespace retarget {
@@ -125,6 +127,17 @@ std::string SettleSentence(const SimulationResult& s) {
                      100 * s.settle_distance_m);
 }
 
+MeasuredScene::MeasuredScene(std::string bytes, const std::string& name,
+                             const std::array<Body, 2>& body)
+    : bytes_(std::move(bytes)),
+      scene_(ParseSceneGlb(bytes_, name)),
+      view_(ViewOfScene(scene_, body)) {}
+
+void MeasuredScene::Measure(const MeasureSubject& subject, const MeasuredScene& source) {
+  series_ = MeasureSeries(subject, view_, source.view_);
+  metrics_ = MetricsOf(subject, series_, NodesOf(source.view_));
+}
+
 Json MetricsJson(const MeasureSubject& subject, const Metrics& m) {
   Json tangles = Json::array();
   for (const TangleMetrics& t : m.tangles) {
@@ -239,6 +252,13 @@ MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
   }
 }
 
+Json ThreeMetricsJson(const MeasureSubject& subject, const Metrics& source, const Metrics* baseline,
+                      const Metrics& result) {
+  return {{"source", MetricsJson(subject, source)},
+          {"baseline", baseline ? MetricsJson(subject, *baseline) : Json(nullptr)},
+          {"result", MetricsJson(subject, result)}};
+}
+
 Json ChecksJson(const std::vector<RequirementCheck>& checks) {
   Json out = Json::array();
   for (const RequirementCheck& c : checks) {
@@ -248,58 +268,6 @@ Json ChecksJson(const std::vector<RequirementCheck>& checks) {
                    {"unit", c.unit},
                    {"met", c.met},
                    {"where", c.where}});
-  }
-  return out;
-}
-
-std::string MetricsTable(const MeasureSubject& subject, const Metrics* source,
-                         const Metrics& result, const std::vector<RequirementCheck>& checks) {
-  std::string out = fmt::format("{:<34}{:>12}{:>12}\n", "", source ? "source" : "", "result");
-  const auto row = [&](const std::string& name, const std::string& unit, auto value) {
-    const std::string before = source ? fmt::format("{:.2f}", value(*source)) : "";
-    out += fmt::format("{:<34}{:>12}{:>12} {}\n", name, before,
-                       fmt::format("{:.2f}", value(result)), unit);
-  };
-  row("tangles kept", "% of frames", [](const Metrics& m) { return m.tangle_kept_percent; });
-  row("smallest s GLI, also between frames", "turns",
-      [](const Metrics& m) { return std::min(m.smallest_gli, m.smallest_gli_between); });
-  row("pass-throughs", "",
-      [](const Metrics& m) { return static_cast<double>(m.pass_throughs.size()); });
-  row("deepest penetration", "cm",
-      [](const Metrics& m) { return 100 * std::max(m.penetration_m, m.penetration_between_m); });
-  row("penetration over 1 cm", "% of frames",
-      [](const Metrics& m) { return m.penetration_over_1cm_percent; });
-  if (!result.hold_m.empty()) {
-    row("hold error", "cm",
-        [](const Metrics& m) { return 100 * *std::max_element(m.hold_m.begin(), m.hold_m.end()); });
-  }
-  for (int f = 0; f < 2; ++f) {
-    const std::string who = std::string(" ") + kFigure[f];
-    const auto figure = [&](const char* name, const char* unit, auto value) {
-      row(name + who, unit, [&](const Metrics& m) { return value(m.figure[f]); });
-    };
-    figure("foot drift", "cm", [](const FigureMetrics& m) { return 100 * m.foot_drift_m; });
-    figure("foot speed over 1 cm/s", "% of stance",
-           [](const FigureMetrics& m) { return m.foot_speed_over_1cm_percent; });
-    figure("below the floor", "cm", [](const FigureMetrics& m) { return 100 * m.floor_m; });
-    figure("self-penetration", "cm",
-           [](const FigureMetrics& m) { return 100 * m.self_penetration_m; });
-    figure("pose error", "cm", [](const FigureMetrics& m) { return m.pose_error_cm; });
-    figure("joint edit", "deg", [](const FigureMetrics& m) { return m.joint_edit_deg; });
-    figure("jerk, to the larger source", "x",
-           [](const FigureMetrics& m) { return m.jerk_ratio_larger; });
-  }
-  for (size_t k = 0; k < subject.tangles.size(); ++k) {
-    const Tangle& t = subject.tangles[k].tag.tangle;
-    const auto name = [&](int f, int n) { return subject.body[f].nodes[n].name; };
-    out += fmt::format("tag {}: a ({}, {}) x b ({}, {}): template {:.2f}, smallest {:.3f}\n", k + 1,
-                       name(0, t.a.from), name(0, t.a.to), name(1, t.b.from), name(1, t.b.to),
-                       t.gli, result.tangles[k].min_signed_gli);
-  }
-  for (const RequirementCheck& c : checks) {
-    if (c.met) continue;
-    out += fmt::format("MISSED {}: {:.4g} {}, required {:.4g}{}{}\n", c.name, c.value, c.unit,
-                       c.limit, c.where.empty() ? "" : " at ", c.where);
   }
   return out;
 }

@@ -1,6 +1,5 @@
 // `retarget`: two clips and a template in, a solved and verified scene out.
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -9,12 +8,11 @@
 
 #include "io/settings_file.h"
 #include "model/write_back.h"
-#include "solver/kernels.h"
-#include "solver/parallel.h"
 #include "tools/commands.h"
 #include "tools/files.h"
 #include "tools/job.h"
-#include "tools/report.h"
+#include "tools/metrics_table.h"
+#include "tools/run_report.h"
 #include "tools/version.h"
 
 namespace retarget {
@@ -39,12 +37,6 @@ Progress ProgressLines() {
   };
 }
 
-struct WrittenRig {
-  std::string bytes;
-  std::vector<NodeJoint> joints;
-  double error_m = 0;  // against the scene
-};
-
 WrittenRig WriteRig(const Job& job, const RetargetResult& result, int f, const MotionView& scene) {
   const LoadedClip& clip = job.clip[f];
   const double start = clip.options.start + job.frames.first / result.scene.fps();
@@ -65,87 +57,10 @@ WrittenRig WriteRig(const Job& job, const RetargetResult& result, int f, const M
   return out;
 }
 
-int64_t PeakBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<int64_t>(usage.ru_maxrss) * 1024;
-}
-
-Json InputsJson(const RetargetOptions& options, const Job& job) {
-  Json inputs;
-  for (int f = 0; f < 2; ++f) {
-    const LoadedClip& clip = job.clip[f];
-    inputs["clip_" + std::string(kFigure[f])] = {{"file", clip.options.path},
-                                                 {"hash", clip.hash},
-                                                 {"profile", clip.facts.map.profile},
-                                                 {"units", clip.facts.metres_per_unit},
-                                                 {"up", std::string(1, clip.facts.up)},
-                                                 {"start_s", clip.options.start},
-                                                 {"skip_frames", clip.options.skip_frames},
-                                                 {"t_pose_frames", clip.facts.t_pose_frames},
-                                                 {"notes", clip.facts.notes}};
-  }
-  inputs["template"] = {{"file", options.template_path},
-                        {"hash", HashOf(ReadFile(options.template_path))},
-                        {"at_s", options.template_at}};
-  inputs["frames"] = {job.frames.first, job.frames.last};
-  inputs["fps"] = options.fps;
-  return inputs;
-}
-
-Json SolveJson(const RetargetResult& result) {
-  Json history = Json::array();
-  for (const Iteration& i : result.solve.history) {
-    Json terms;
-    for (size_t k = 0; k < i.term_cost.size(); ++k) terms[result.costs[k].name] = i.term_cost[k];
-    history.push_back({{"stage", i.stage},
-                       {"iteration", i.index},
-                       {"cost", i.cost},
-                       {"step_m", i.step_m},
-                       {"smallest_gli", i.smallest_gli},
-                       {"deepest_penetration_m", i.deepest_penetration_m},
-                       {"hold_error_m", i.hold_error_m},
-                       {"seconds", i.seconds},
-                       {"terms", terms}});
-  }
-  Json terms = Json::array();
-  for (const TermCost& c : result.costs) {
-    terms.push_back({{"term", c.name},
-                     {"unit", c.unit},
-                     {"weight", c.weight},
-                     {"cost", c.cost},
-                     {"natural_cost", c.natural_cost},
-                     {"largest", c.largest}});
-  }
-  constexpr const char* kStatus[] = {"converged", "iteration limit", "time limit", "interrupted"};
-  return {
-      {"backend", result.solve.backend},
-      {"status", result.solve.stalled ? "stalled" : kStatus[static_cast<int>(result.solve.status)]},
-      {"initial_cost", result.solve.initial_cost},
-      {"cost", result.solve.cost},
-      {"iterations", result.solve.iterations},
-      {"linear_solves", result.solve.linear_solves},
-      {"terms", terms},
-      {"history", history}};
-}
-
-Json StartJson(const StartChoice& start) {
-  const auto cost = [](const std::optional<double>& c) { return c ? Json(*c) : Json(nullptr); };
-  return {{"requested", start.requested},
-          {"used", start.used},
-          {"reason", start.reason},
-          {"costs",
-           {{"simulated", cost(start.simulated_cost)}, {"template", cost(start.template_cost)}}}};
-}
-
 int ExitCodeOf(SolveStatus status, bool all_met) {
   if (status == SolveStatus::kInterrupted) return kInterrupted;
   if (status != SolveStatus::kConverged) return kLimit;
   return all_met ? kDone : kMissed;
-}
-
-Json PlacementJson(const Placement& p) {
-  return {{"yaw_rad", p.yaw}, {"shift_m", {p.shift.x(), p.shift.y(), p.shift.z()}}};
 }
 
 }  // namespace
@@ -170,23 +85,17 @@ int RunRetarget(const RetargetOptions& options) {
   for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   // Measure what is written, as it would be read back.
-  const std::string scene_bytes = SceneBytes(result.scene, result.solved);
-  const std::string source_bytes = SceneBytes(result.scene, result.scene.source);
-  const std::string baseline_bytes = SceneBytes(result.scene, result.simulation.motion);
-  const SceneMotion scene = ParseSceneGlb(scene_bytes, "scene.glb");
-  const SceneMotion source = ParseSceneGlb(source_bytes, "source.glb");
-  const SceneMotion baseline = ParseSceneGlb(baseline_bytes, "baseline.glb");
-  const MotionView scene_view = ViewOfScene(scene, result.scene.body);
-  const MotionView source_view = ViewOfScene(source, result.scene.body);
   const MeasureSubject subject = SubjectOf(result.scene);
-  const Metrics metrics = Measure(subject, scene_view, source_view);
-  const Metrics source_metrics = Measure(subject, source_view, source_view);
-  const Metrics baseline_metrics =
-      Measure(subject, ViewOfScene(baseline, result.scene.body), source_view);
+  MeasuredScene source(SceneBytes(result.scene, result.scene.source), "source.glb", subject.body);
+  MeasuredScene baseline(SceneBytes(result.scene, result.simulation.motion), "baseline.glb",
+                         subject.body);
+  MeasuredScene scene(SceneBytes(result.scene, result.solved), "scene.glb", subject.body);
+  for (MeasuredScene* motion : {&source, &baseline, &scene}) motion->Measure(subject, source);
+  const Metrics& metrics = scene.metrics();
   std::vector<RequirementCheck> checks = CheckRequirements(subject, metrics, settings.requirements);
   std::array<WrittenRig, 2> rig;
   for (int f = 0; f < 2; ++f) {
-    rig[f] = WriteRig(job, result, f, scene_view);
+    rig[f] = WriteRig(job, result, f, scene.view());
     checks.push_back({std::string("write-back ") + kFigure[f], rig[f].error_m, kWriteBackLimit, "m",
                       rig[f].error_m <= kWriteBackLimit, ""});
   }
@@ -194,55 +103,11 @@ int RunRetarget(const RetargetOptions& options) {
   const int exit_code = ExitCodeOf(result.solve.status, all_met);
 
   // Report and write.
-  Json report = {{"generator", kGenerator},
-                 {"format", 1},
-                 {"exit_code", exit_code},
-                 {"requirements_met", all_met}};
-  report["inputs"] = InputsJson(options, job);
-  report["frames"] = result.scene.num_frames();
-  report["fps"] = result.scene.fps();
-  report.update(SubjectJson(subject, metrics));
-  for (int f = 0; f < 2; ++f) {
-    report["supports"][kFigure[f]] = Json::array();
-    for (const int n : result.scene.posture.supports[f]) {
-      report["supports"][kFigure[f]].push_back(job.input.body[f].nodes[n].name);
-    }
-    report["placement"][kFigure[f]] = PlacementJson(result.placement[f]);
-    Json& written = report["write_back"][kFigure[f]];
-    written = {{"file", std::string(kFigure[f]) + ".bvh"},
-               {"units", job.clip[f].facts.metres_per_unit},
-               {"up", std::string(1, job.clip[f].facts.up)},
-               {"largest_error_m", rig[f].error_m}};
-    for (const NodeJoint& pair : rig[f].joints) {
-      written["joints"][job.input.body[f].nodes[pair.node].name] =
-          job.clip[f].file.motion.rig.joints[pair.joint].name;
-    }
-  }
-  report["metrics"] = {{"source", MetricsJson(subject, source_metrics)},
-                       {"baseline", MetricsJson(subject, baseline_metrics)},
-                       {"result", MetricsJson(subject, metrics)}};
-  report["requirements"] = ChecksJson(checks);
-  report["warnings"] = result.warnings;
-  report["literal_tangles"] = result.tangles.literal.size();
-  report["solve"] = SolveJson(result);
-  report["simulation"] = SimulationJson(result.simulation);
-  report["start"] = StartJson(result.start);
-  report["iterations"] = result.solve.iterations;
-  report["timings"] = {{"start_s", result.start_seconds},
-                       {"simulation_s", result.simulation.seconds},
-                       {"solve_s", result.solve.seconds},
-                       {"frames_per_s", result.scene.num_frames() / result.solve.seconds}};
-  report["memory"] = {{"peak_bytes", PeakBytes()}};
-  report["versions"] = {{"retarget", kVersion},
-                        {"kernels", KernelName()},
-                        {"threads", NumThreads(settings.solve.threads)}};
-  VisitSettings(settings, [&](const std::string& key, const auto& value, auto&&...) {
-    report["configuration"][key] = value;
-  });
-
-  output.Add("scene.glb", scene_bytes);
-  output.Add("source.glb", source_bytes);
-  output.Add("baseline.glb", baseline_bytes);
+  const Json report = RunReport({options, settings, job, result, subject, checks, exit_code, rig},
+                                source.metrics(), baseline.metrics(), metrics);
+  output.Add("scene.glb", scene.bytes());
+  output.Add("source.glb", source.bytes());
+  output.Add("baseline.glb", baseline.bytes());
   for (int f = 0; f < 2; ++f) output.Add(std::string(kFigure[f]) + ".bvh", rig[f].bytes);
   output.Add("report.json", report.dump(1) + "\n");
   output.Add("config.yaml", FormatSettings(settings));
@@ -252,7 +117,7 @@ int RunRetarget(const RetargetOptions& options) {
     fmt::print("{}\n", report.dump(1));
     return exit_code;
   }
-  fmt::print("{}", MetricsTable(subject, &source_metrics, metrics, checks));
+  fmt::print("{}", MetricsTable(subject, source.metrics(), &baseline.metrics(), metrics, checks));
   fmt::print(
       "{} frames in {:.2f} s ({:.0f} frames/s, {} iterations), start {:.2f} s; written to {}\n",
       result.scene.num_frames(), result.solve.seconds,

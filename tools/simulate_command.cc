@@ -5,7 +5,7 @@
 #include "tools/commands.h"
 #include "tools/files.h"
 #include "tools/job.h"
-#include "tools/report.h"
+#include "tools/metrics_table.h"
 
 namespace retarget {
 
@@ -21,17 +21,13 @@ int RunSimulate(const RetargetOptions& options) {
   const Scene& scene = prepared.scene;
   const SimulationResult simulation = Simulate(scene, settings.simulation);
 
-  const std::string bytes = SceneBytes(scene, simulation.motion);
-  const std::string source_bytes = SceneBytes(scene, scene.source);
-  const SceneMotion motion = ParseSceneGlb(bytes, "baseline.glb");
-  const SceneMotion source = ParseSceneGlb(source_bytes, "source.glb");
-  const MotionView view = ViewOfScene(motion, scene.body);
-  const MotionView source_view = ViewOfScene(source, scene.body);
   const MeasureSubject subject = SubjectOf(scene);
-  const Metrics metrics = Measure(subject, view, source_view);
-  const Metrics source_metrics = Measure(subject, source_view, source_view);
-  output.Add("source.glb", source_bytes);
-  output.Add("baseline.glb", bytes);
+  MeasuredScene source(SceneBytes(scene, scene.source), "source.glb", subject.body);
+  MeasuredScene baseline(SceneBytes(scene, simulation.motion), "baseline.glb", subject.body);
+  for (MeasuredScene* motion : {&source, &baseline}) motion->Measure(subject, source);
+  const Metrics& metrics = baseline.metrics();
+  output.Add("source.glb", source.bytes());
+  output.Add("baseline.glb", baseline.bytes());
   output.Commit();
 
   const std::vector<RequirementCheck> checks =
@@ -39,12 +35,12 @@ int RunSimulate(const RetargetOptions& options) {
   if (options.json) {
     const Json report = {{"simulation", SimulationJson(simulation)},
                          {"metrics",
-                          {{"source", MetricsJson(subject, source_metrics)},
+                          {{"source", MetricsJson(subject, source.metrics())},
                            {"baseline", MetricsJson(subject, metrics)}}},
                          {"requirements", ChecksJson(checks)}};
     fmt::print("{}\n", report.dump(1));
   } else {
-    fmt::print("{}", MetricsTable(subject, &source_metrics, metrics, checks));
+    fmt::print("{}", MetricsTable(subject, source.metrics(), nullptr, metrics, checks, "baseline"));
     fmt::print("{}: {}\n{}; simulated {:.1f} s in {:.2f} s ({:.1f}x real time); written to {}\n",
                NameOf(simulation.status), simulation.message, SettleSentence(simulation),
                simulation.simulated, simulation.seconds, simulation.simulated / simulation.seconds,

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
-#include "io/scene_glb.h"
 #include "io/settings_file.h"
 #include "tools/commands.h"
 #include "tools/files.h"
-#include "tools/report.h"
+#include "tools/metrics_table.h"
 
 namespace retarget {
 namespace {
@@ -34,6 +34,12 @@ RequirementCheck CheckWriteBack(const Json& written, const std::string& folder, 
           file};
 }
 
+void CheckFrames(const MeasuredScene& scene, const std::string& path, int frames) {
+  if (scene.view().num_frames == frames) return;
+  throw InputError(
+      fmt::format("{}: has {} frames, scene.glb {}", path, scene.view().num_frames, frames));
+}
+
 }  // namespace
 
 int RunVerify(const std::string& folder, bool json) {
@@ -41,28 +47,31 @@ int RunVerify(const std::string& folder, bool json) {
   const Json report = ReadReport(folder);
   const MeasureSubject subject = SubjectFromJson(report, report_path);
   const Settings settings = ReadSettings(folder + "/config.yaml");
-  const SceneMotion scene = ReadSceneGlb(folder + "/scene.glb");
-  const SceneMotion source = ReadSceneGlb(folder + "/source.glb");
-  const MotionView scene_view = ViewOfScene(scene, subject.body);
-  const MotionView source_view = ViewOfScene(source, subject.body);
-  if (scene_view.num_frames != source_view.num_frames) {
-    throw InputError(fmt::format("{}: scene.glb has {} frames, source.glb {}", folder,
-                                 scene_view.num_frames, source_view.num_frames));
+  MeasuredScene scene(ReadFile(folder + "/scene.glb"), folder + "/scene.glb", subject.body);
+  const int frames = scene.view().num_frames;
+  MeasuredScene source(ReadFile(folder + "/source.glb"), folder + "/source.glb", subject.body);
+  CheckFrames(source, folder + "/source.glb", frames);
+  std::optional<MeasuredScene> baseline;
+  if (std::filesystem::exists(folder + "/baseline.glb")) {
+    baseline.emplace(ReadFile(folder + "/baseline.glb"), folder + "/baseline.glb", subject.body);
+    CheckFrames(*baseline, folder + "/baseline.glb", frames);
   }
   for (int f = 0; f < 2; ++f) {
     for (const Contact& c : subject.contacts[f]) {
-      if (c.node < 0 || c.first < 0 || c.last >= scene_view.num_frames || c.last < c.first) {
+      if (c.node < 0 || c.first < 0 || c.last >= frames || c.last < c.first) {
         throw InputError(report_path + ": a contact lies outside the scene's frames");
       }
     }
   }
-  const Metrics metrics = Measure(subject, scene_view, source_view);
-  const Metrics source_metrics = Measure(subject, source_view, source_view);
+  source.Measure(subject, source);
+  scene.Measure(subject, source);
+  if (baseline) baseline->Measure(subject, source);
+  const Metrics& metrics = scene.metrics();
   std::vector<RequirementCheck> checks = CheckRequirements(subject, metrics, settings.requirements);
   for (int f = 0; f < 2; ++f) {
     const char* figure = kFigure[f];
     try {
-      checks.push_back(CheckWriteBack(report.at("write_back").at(figure), folder, f, scene_view,
+      checks.push_back(CheckWriteBack(report.at("write_back").at(figure), folder, f, scene.view(),
                                       subject.body[f]));
     } catch (const nlohmann::json::exception& error) {
       throw InputError(report_path + ": " + error.what());
@@ -72,15 +81,15 @@ int RunVerify(const std::string& folder, bool json) {
         {std::string("segment lengths ") + figure, length, 0.5, "%", length <= 0.5, ""});
   }
   const bool all_met = AllMet(checks);
+  const Metrics* baseline_metrics = baseline ? &baseline->metrics() : nullptr;
   if (json) {
-    const Json out = {{"requirements_met", all_met},
-                      {"requirements", ChecksJson(checks)},
-                      {"metrics",
-                       {{"source", MetricsJson(subject, source_metrics)},
-                        {"result", MetricsJson(subject, metrics)}}}};
+    const Json out = {
+        {"requirements_met", all_met},
+        {"requirements", ChecksJson(checks)},
+        {"metrics", ThreeMetricsJson(subject, source.metrics(), baseline_metrics, metrics)}};
     fmt::print("{}\n", out.dump(1));
   } else {
-    fmt::print("{}", MetricsTable(subject, &source_metrics, metrics, checks));
+    fmt::print("{}", MetricsTable(subject, source.metrics(), baseline_metrics, metrics, checks));
     fmt::print("{}\n", all_met ? "every requirement is met" : "a requirement is MISSED, see above");
   }
   return all_met ? kDone : kMissed;

@@ -131,6 +131,16 @@ TEST(Cli, RetargetsTheExampleVerifiesItAndNoticesDamage) {
   EXPECT_NEAR(again["metrics"]["result"]["smallest_gli"],
               report["metrics"]["result"]["smallest_gli"].get<double>(), 1e-9);
 
+  // A simulated run beside it is measured too.
+  fs::copy_file(folder + "/source.glb", folder + "/baseline.glb");
+  const Outcome three = RunProgram(scratch, "verify " + folder);
+  EXPECT_EQ(three.code, 0) << three.out;
+  EXPECT_NE(three.out.find("baseline"), std::string::npos);
+  const Json with_baseline = Json::parse(RunProgram(scratch, "verify --json " + folder).out);
+  EXPECT_EQ(with_baseline["metrics"]["baseline"], with_baseline["metrics"]["source"]);
+  EXPECT_TRUE(again["metrics"]["baseline"].is_null());
+  fs::remove(folder + "/baseline.glb");
+
   // The effective configuration repeats the run, byte for byte.
   const Outcome repeated = RunProgram(scratch, kExample + " --frames 0:90 --config " + folder +
                                                    "/config.yaml --out " + (scratch / "again"));
