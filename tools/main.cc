@@ -55,7 +55,7 @@ struct CommandLine {
   FromClipsOptions from_clips;
   ClipOptions map_clip;
   std::string folder, file, config, check, picture;
-  std::vector<std::string> set, clips;
+  std::vector<std::string> set, clips, folders;
   bool json = false, force = false;
   int code = 0;
 
@@ -108,6 +108,11 @@ struct CommandLine {
     verify->add_option("folder", folder, "what --out was")->required();
     verify->add_flag("--json", json);
     verify->callback([this] { code = RunVerify(folder, json); });
+
+    CLI::App* compare = app->add_subcommand("compare", "finished runs side by side");
+    compare->add_option("folders", folders, "what --out was, one or more")->required();
+    compare->add_flag("--json", json);
+    compare->callback([this] { code = RunCompare(folders, json); });
 
     CLI::App* tangles =
         app->add_subcommand("tangles", "what is tangled in a template or in node positions");

@@ -3,36 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace retarget {
 namespace {
 
 double Number(const Json& metrics, const char* key) { return metrics.at(key).get<double>(); }
 
-std::vector<MetricRow> PairRows(const Json& metrics) {
-  std::vector<MetricRow> rows = {
-      {"tangles kept", "% of frames", "", 1,
-       [](const Json& m) { return Number(m, "tangle_kept_percent"); }},
-      {"smallest s GLI, also between frames", "turns", "tangle", 1,
-       [](const Json& m) {
-         return std::min(Number(m, "smallest_gli"), Number(m, "smallest_gli_between_frames"));
-       }},
-      {"pass-throughs", "", "pass-throughs", 1,
-       [](const Json& m) { return Number(m, "pass_throughs"); }},
-      {"deepest penetration", "cm", "penetration", 100,
-       [](const Json& m) {
-         return 100 *
-                std::max(Number(m, "penetration_m"), Number(m, "penetration_between_frames_m"));
-       }},
-      {"penetration over 1 cm", "% of frames", "penetration over 1 cm", 1,
-       [](const Json& m) { return Number(m, "penetration_over_1cm_percent"); }}};
-  if (!metrics.at("hold_m").empty()) {
-    rows.push_back({"hold error", "cm", "hold", 100, [](const Json& m) {
-                      const std::vector<double> holds = m.at("hold_m");
-                      return 100 * *std::max_element(holds.begin(), holds.end());
-                    }});
-  }
-  return rows;
+std::vector<MetricRow> PairRows() {
+  return {{"tangles kept", "% of frames", "", 1,
+           [](const Json& m) { return Number(m, "tangle_kept_percent"); }},
+          {"smallest s GLI, also between frames", "turns", "tangle", 1,
+           [](const Json& m) {
+             return std::min(Number(m, "smallest_gli"), Number(m, "smallest_gli_between_frames"));
+           }},
+          {"pass-throughs", "", "pass-throughs", 1,
+           [](const Json& m) { return Number(m, "pass_throughs"); }},
+          {"deepest penetration", "cm", "penetration", 100,
+           [](const Json& m) {
+             return 100 *
+                    std::max(Number(m, "penetration_m"), Number(m, "penetration_between_frames_m"));
+           }},
+          {"penetration over 1 cm", "% of frames", "penetration over 1 cm", 1,
+           [](const Json& m) { return Number(m, "penetration_over_1cm_percent"); }},
+          {"hold error", "cm", "hold", 100, [](const Json& m) {
+             const std::vector<double> holds = m.at("hold_m");
+             return holds.empty() ? std::nan("")
+                                  : 100 * *std::max_element(holds.begin(), holds.end());
+           }}};
 }
 
 void AddFigureRows(const std::string& figure, std::vector<MetricRow>* rows) {
@@ -66,8 +64,8 @@ bool Misses(const MetricRow& row, double value, double limit) {
 
 }  // namespace
 
-std::vector<MetricRow> MetricRows(const Json& metrics) {
-  std::vector<MetricRow> rows = PairRows(metrics);
+std::vector<MetricRow> MetricRows() {
+  std::vector<MetricRow> rows = PairRows();
   for (const char* figure : kFigure) AddFigureRows(figure, &rows);
   return rows;
 }
@@ -83,6 +81,7 @@ Json LimitOf(const MetricRow& row, const Json& requirements) {
 
 std::string MetricCell(const MetricRow& row, const Json& metrics, const Json& limit) {
   const double value = row.value(metrics);
+  if (std::isnan(value)) return "- ";
   const bool missed = !limit.is_null() && Misses(row, value, limit);
   return fmt::format("{:.2f}{}", value, missed ? "*" : " ");
 }
@@ -102,7 +101,7 @@ std::string MetricsTable(const MeasureSubject& subject, const Metrics& source,
   std::string out = fmt::format("{:<36}", "");
   for (const auto& [name, metrics] : columns) out += fmt::format("{:>11} ", name);
   out += fmt::format("{:>11}\n", "required");
-  for (const MetricRow& row : MetricRows(columns.back().second)) {
+  for (const MetricRow& row : MetricRows()) {
     const Json limit = LimitOf(row, requirements);
     out += fmt::format("{:<36}", row.name);
     for (const auto& [name, metrics] : columns) {

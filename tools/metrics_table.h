@@ -14,14 +14,13 @@ struct MetricRow {
   std::string name, unit;
   std::string requirement;  // the checks it answers to ("hold" for "hold 1", ...); empty: none
   double scale = 1;         // from the requirement's unit to this row's
-  std::function<double(const Json& metrics)> value;
+  std::function<double(const Json& metrics)> value;  // NaN: nothing to measure
 };
-// Rows that say nothing for `metrics` (no holds) are left out.
-std::vector<MetricRow> MetricRows(const Json& metrics);
+std::vector<MetricRow> MetricRows();
 
 // The limit of a row (in its unit) among the requirements of report.json; null where there is none.
 Json LimitOf(const MetricRow& row, const Json& requirements);
-// "12.34*", the star where the limit is missed.
+// "12.34*", the star where the limit is missed; "-" where there is nothing to measure.
 std::string MetricCell(const MetricRow& row, const Json& metrics, const Json& limit);
 std::string RequiredCell(const MetricRow& row, const Json& limit);
 inline constexpr const char* kStarNote = "* misses what is required\n";
