@@ -12,7 +12,9 @@
 #include "tools/files.h"
 #include "tools/job.h"
 #include "tools/metrics_table.h"
+#include "tools/report_page.h"
 #include "tools/run_report.h"
+#include "tools/series.h"
 #include "tools/version.h"
 
 namespace retarget {
@@ -73,10 +75,11 @@ int RunRetarget(const RetargetOptions& options) {
   // Read, map onto the body, resample.
   const Settings settings = EffectiveSettings(options);
   const Job job = LoadJob(options);
-  OutputSet output(
-      options.out,
-      {"scene.glb", "source.glb", "baseline.glb", "a.bvh", "b.bvh", "report.json", "config.yaml"},
-      {options.clip[0].path, options.clip[1].path, options.template_path}, options.force);
+  OutputSet output(options.out,
+                   {"scene.glb", "source.glb", "baseline.glb", "a.bvh", "b.bvh", "report.json",
+                    "report.html", "config.yaml"},
+                   {options.clip[0].path, options.clip[1].path, options.template_path},
+                   options.force);
   TellNotes(job);
 
   // Fit the template, find tangles and contacts, place, start, solve.
@@ -110,6 +113,9 @@ int RunRetarget(const RetargetOptions& options) {
   output.Add("baseline.glb", baseline.bytes());
   for (int f = 0; f < 2; ++f) output.Add(std::string(kFigure[f]) + ".bvh", rig[f].bytes);
   output.Add("report.json", report.dump(1) + "\n");
+  const Json series = SeriesJson(subject, source.series(), &baseline.series(), scene.series());
+  output.Add("report.html",
+             FormatReportPage({report, series, source.bytes(), baseline.bytes(), scene.bytes()}));
   output.Add("config.yaml", FormatSettings(settings));
   output.Commit();
 

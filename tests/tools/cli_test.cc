@@ -64,9 +64,10 @@ TEST(Cli, RetargetsTheExampleVerifiesItAndNoticesDamage) {
   const Outcome run = RunProgram(scratch, kExample + " --frames 0:90 --json --out " + folder);
   ASSERT_EQ(run.code, 0) << run.err;
   const Json report = Json::parse(run.out);
-  for (const char* key : {"tangles", "pass_throughs", "bodies", "contacts", "supports", "holds",
-                          "placement", "metrics", "timings", "memory", "iterations", "versions",
-                          "inputs", "configuration", "requirements", "warnings"}) {
+  for (const char* key :
+       {"tangles", "pass_throughs", "bodies", "contacts", "supports", "holds", "placement",
+        "metrics", "timings", "memory", "iterations", "versions", "inputs", "configuration",
+        "requirements", "warnings", "simulation", "start"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report["frames"], 90);
@@ -92,15 +93,18 @@ TEST(Cli, RetargetsTheExampleVerifiesItAndNoticesDamage) {
   EXPECT_NEAR(again["metrics"]["result"]["smallest_gli"],
               report["metrics"]["result"]["smallest_gli"].get<double>(), 1e-9);
 
-  // A simulated run beside it is measured too.
-  fs::copy_file(folder + "/source.glb", folder + "/baseline.glb");
-  const Outcome three = RunProgram(scratch, "verify " + folder);
-  EXPECT_EQ(three.code, 0) << three.out;
-  EXPECT_NE(three.out.find("baseline"), std::string::npos);
-  const Json with_baseline = Json::parse(RunProgram(scratch, "verify --json " + folder).out);
-  EXPECT_EQ(with_baseline["metrics"]["baseline"], with_baseline["metrics"]["source"]);
-  EXPECT_TRUE(again["metrics"]["baseline"].is_null());
+  EXPECT_NEAR(again["metrics"]["baseline"]["smallest_gli"],
+              report["metrics"]["baseline"]["smallest_gli"].get<double>(), 1e-9);
+  EXPECT_EQ(report["simulation"]["status"], "completed");
+  EXPECT_EQ(report["start"]["used"], "simulated");
+  EXPECT_NE(RunProgram(scratch, "verify " + folder).out.find("baseline"), std::string::npos);
+  EXPECT_NE(ReadWholeFile(folder + "/report.html").find("<html"), std::string::npos);
+
+  // An older run has no simulated scene beside it.
   fs::remove(folder + "/baseline.glb");
+  const Outcome two = RunProgram(scratch, "verify --json " + folder);
+  EXPECT_EQ(two.code, 0) << two.out;
+  EXPECT_TRUE(Json::parse(two.out)["metrics"]["baseline"].is_null());
 
   // The effective configuration repeats the run, byte for byte.
   const Outcome repeated = RunProgram(scratch, kExample + " --frames 0:90 --config " + folder +
@@ -118,6 +122,29 @@ TEST(Cli, RetargetsTheExampleVerifiesItAndNoticesDamage) {
   EXPECT_NE(missed.out.find("MISSED"), std::string::npos);
   std::ofstream(folder + "/scene.glb", std::ios::binary) << "glTF";
   EXPECT_EQ(RunProgram(scratch, "verify " + folder).code, 2);
+}
+
+TEST(Cli, SimulateWritesTheBaselineThatRetargetHas) {
+  const Scratch scratch;
+  const Outcome run = RunProgram(
+      scratch, "simulate " + kExample + " --frames 0:45 --json --out " + (scratch / "s"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json report = Json::parse(run.out);
+  EXPECT_EQ(report["simulation"]["status"], "completed");
+  EXPECT_GT(report["simulation"]["settle_s"], 0);
+  EXPECT_EQ(RunProgram(scratch, kExample + " --frames 0:45 --out " + (scratch / "r")).code, 0);
+  EXPECT_EQ(ReadWholeFile(scratch / "s/baseline.glb"), ReadWholeFile(scratch / "r/baseline.glb"));
+  EXPECT_EQ(RunProgram(scratch, "simulate --clip-a x.bvh").code, 2);
+  // Another kind of tangle force is another run; an unknown one is refused.
+  EXPECT_EQ(RunProgram(scratch, "simulate " + kExample + " --frames 0:45 --out " + (scratch / "g") +
+                                    " --set simulation.tangle_force=gli")
+                .code,
+            0);
+  EXPECT_NE(ReadWholeFile(scratch / "s/baseline.glb"), ReadWholeFile(scratch / "g/baseline.glb"));
+  const Outcome unknown = RunProgram(scratch, "simulate " + kExample + " --out " + (scratch / "u") +
+                                                  " --set simulation.tangle_force=rubber");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("elastic"), std::string::npos) << unknown.err;
 }
 
 TEST(Cli, LimitsGiveExitCode4AndTheBestSoFar) {

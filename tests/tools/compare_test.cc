@@ -43,11 +43,11 @@ TEST_F(Compare, ShowsRunsSideBySideAndWhatDiffers) {
   const Outcome text = RunProgram(scratch_, "compare " + one_ + " " + two_);
   ASSERT_EQ(text.code, 0) << text.err;
   EXPECT_EQ(text.out.rfind("note: ", 0), 0u) << text.out;  // other frames: not one scene
-  EXPECT_EQ(Line(text.out, " "), (std::vector<std::string>{one_, two_}));
+  EXPECT_EQ(Line(text.out, " "), (std::vector<std::string>{"baseline", one_, two_}));
   const std::vector<std::string> hold = Line(text.out, "hold error, cm");
-  ASSERT_EQ(hold.size(), 2u);
-  EXPECT_FALSE(hold[0].ends_with('*'));
-  EXPECT_TRUE(hold[1].ends_with('*'));
+  ASSERT_EQ(hold.size(), 3u);
+  EXPECT_FALSE(hold[1].ends_with('*'));
+  EXPECT_TRUE(hold[2].ends_with('*'));
   EXPECT_EQ(Line(text.out, "  weights.hold"), (std::vector<std::string>{"60", "0.1"}));
   EXPECT_EQ(Line(text.out, "  frames.1"), (std::vector<std::string>{"15", "12"}));
   EXPECT_EQ(Line(text.out, "natural cost, hold").size(), 2u);
@@ -55,7 +55,7 @@ TEST_F(Compare, ShowsRunsSideBySideAndWhatDiffers) {
   const Json json = Json::parse(RunProgram(scratch_, "compare --json " + one_ + " " + two_).out);
   EXPECT_EQ(json["differences"].size(), 2u) << json["differences"];
   EXPECT_EQ(json["notes"].size(), 1u);
-  EXPECT_TRUE(json["baseline"].is_null());
+  EXPECT_EQ(json["baseline"], Report(one_)["metrics"]["baseline"]);
   for (int k = 0; k < 2; ++k) {
     const Json report = Report(k == 0 ? one_ : two_);
     EXPECT_EQ(json["runs"][k]["metrics"], report["metrics"]["result"]);
@@ -66,8 +66,12 @@ TEST_F(Compare, ShowsRunsSideBySideAndWhatDiffers) {
   EXPECT_TRUE(same["differences"].empty() && same["notes"].empty());
 }
 
-TEST_F(Compare, ABaselineComesFirst) {
+TEST_F(Compare, TheBaselineIsTheFirstRunsAndMayBeMissing) {
   Json report = Report(one_);
+  report["metrics"]["baseline"] = nullptr;
+  Rewrite(one_, report);
+  EXPECT_EQ(Line(RunProgram(scratch_, "compare " + one_ + " " + two_).out, " "),
+            (std::vector<std::string>{one_, two_}));
   report["metrics"]["baseline"] = report["metrics"]["source"];
   report["metrics"]["baseline"]["hold_m"] = {0.5};
   Rewrite(one_, report);

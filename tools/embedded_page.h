@@ -1,0 +1,16 @@
+// Files of tools/web that are part of the program.
+#pragma once
+
+#include <string_view>
+
+namespace retarget {
+
+// The built page with its markers `<!--retarget:verdict-->`, `tables` and `data`; empty where the
+// program was built without it (RETARGET_STUDIO=OFF).
+std::string_view EmbeddedReportPage();
+
+// Style sheets of the pages, as written.
+std::string_view EmbeddedThemeCss();
+std::string_view EmbeddedReportCss();
+
+}  // namespace retarget

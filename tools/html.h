@@ -1,0 +1,38 @@
+// Pieces of a page: escaped text and tables.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace retarget {
+
+// & < > and quotes as entities.
+std::string EscapeHtml(const std::string& text);
+
+// left_hand -> left hand.
+std::string Words(std::string name);
+
+// Escaped; "frame 12" becomes a span with data-frame="12", which the page turns into a jump.
+std::string WithFrames(const std::string& text);
+
+// A number with `digits` decimals; an en dash where there is none (NaN).
+std::string Figure(double value, int digits);
+
+struct Cell {
+  std::string html;
+  const char* kind = "";  // class of the cell: "number", "number bad", "unit", ...
+};
+
+class HtmlTable {
+ public:
+  explicit HtmlTable(const std::vector<Cell>& head);
+  void Row(const std::vector<Cell>& cells, const std::string& attributes = "");
+  bool empty() const { return rows_ == 0; }
+  std::string Html() const;
+
+ private:
+  std::string html_;
+  int rows_ = 0;
+};
+
+}  // namespace retarget

@@ -1,0 +1,92 @@
+// What the page holds: report.json, the series by frame, and the scenes (docs/report.md).
+
+export const variants = ["source", "baseline", "result"] as const;
+export type Variant = (typeof variants)[number];
+export const variantTitle: Record<Variant, string> = {
+  source: "Source",
+  baseline: "Simulated",
+  result: "Result",
+};
+export const variantMeaning: Record<Variant, string> = {
+  source: "the clips, placed, not edited",
+  baseline: "forward simulation",
+  result: "solved",
+};
+export type FigureName = "a" | "b";
+type PerFigure<T> = { a: T; b: T };
+
+export interface Series {
+  tangles: number[][]; // [tags][frames], s GLI, turns
+  penetration_cm: number[];
+  penetration_pair: (null | [string, string])[];
+  self_penetration_cm: PerFigure<number[]>;
+  floor_cm: PerFigure<number[]>;
+  hold_cm: number[][]; // [holds][frames]
+  foot_speed_cm_s: PerFigure<number[]>;
+  tracking_deg: null | PerFigure<{ joints: string[]; values: number[][] }>; // [joints][frames]
+  pass_throughs: { frame: number; a: string; b: string }[];
+}
+
+export interface AllSeries {
+  fps: number;
+  frames: number;
+  source: Series;
+  baseline: Series | null;
+  result: Series;
+}
+
+export interface Requirement {
+  name: string;
+  value: number;
+  limit: number;
+  unit: string;
+  met: boolean;
+  where: string;
+}
+
+// The part of report.json that the page computes with; the tables are in the page already.
+export interface Report {
+  tangles: { a: [string, string]; b: [string, string]; template_gli: number }[];
+  bodies: PerFigure<{ radius: Record<string, number> }>;
+  contacts: PerFigure<{ node: string; first: number; last: number }[]>;
+  requirements: Requirement[];
+  simulation?: null | { status: string; message: string };
+  solve: {
+    history: { stage: number; iteration: number; cost: number; terms?: Record<string, number> }[];
+  };
+}
+
+function textOf(id: string): string | null {
+  return document.getElementById(id)?.textContent ?? null;
+}
+
+function json<T>(id: string): T {
+  const text = textOf(id);
+  if (text === null) throw new Error(`the page holds no ${id}`);
+  return JSON.parse(text) as T;
+}
+
+export const readReport = () => json<Report>("report");
+export const readSeries = () => json<AllSeries>("series");
+
+// The bytes of a scene, or null where the page has none.
+export function readScene(variant: Variant): ArrayBuffer | null {
+  const text = textOf(`${variant}-glb`);
+  if (text === null || text.trim() === "") return null;
+  const binary = atob(text.trim());
+  const bytes = new Uint8Array(binary.length);
+  for (let k = 0; k < binary.length; ++k) bytes[k] = binary.charCodeAt(k);
+  return bytes.buffer;
+}
+
+// The limit of the first requirement of that name.
+export function limitOf(report: Report, name: string, otherwise: number): number {
+  return report.requirements.find((r) => r.name.startsWith(name))?.limit ?? otherwise;
+}
+
+// Largest of several series, frame by frame.
+export function largest(rows: number[][], frames: number): number[] {
+  return Array.from({ length: frames }, (_, t) => rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0));
+}
+
+export const words = (name: string) => name.replace(/_/g, " ");
