@@ -470,12 +470,12 @@ TEST(AcclaimTest, AgreesWithTheSameMotionInBvhBetweenItsKeys) {
   }
   const AcclaimFile file =
       ParseAcclaim(ReadWholeFile(kClip + ".asf"), "16.asf", thinned, "thinned.amc");
-  // The left arm is missing at first, and the last key comes after two frames: there the splines of
-  // angles depend on more than the angles.
+  // The left arm is missing at first, and the last key comes after two frames: there the splines
+  // depend on which angles were drawn through the keys.
   Difference all;
-  for (int f = 12; f < 464; ++f) Compare(file.motion, bvh, f, EveryPoint, &all);
-  EXPECT_EQ(all.checked, 452 * 36);
-  EXPECT_LT(all.worst, 2e-4);
+  for (int f = 8; f < 464; ++f) Compare(file.motion, bvh, f, EveryPoint, &all);
+  EXPECT_EQ(all.checked, 456 * 36);
+  EXPECT_LT(all.worst, 5e-4);
 }
 
 TEST(AcclaimTest, TheRealFileComesBackAsItWas) {
@@ -513,6 +513,126 @@ TEST(AcclaimTest, TheRealFileComesBackAsItWas) {
   EXPECT_EQ(all, 471 * 62);
   EXPECT_GT(same, 0.999 * all);
   EXPECT_TRUE(written.starts_with(amc.substr(0, amc.find("\n1\r\n"))));
+}
+
+struct Bound {
+  RigMotion motion;
+  RigFacts facts;
+  std::unique_ptr<RigBinding> binding;
+};
+
+// Frames past the left arm's gap at the start.
+Bound Bind(RigMotion motion, const std::string& name) {
+  Bound bound;
+  bound.motion = std::move(motion);
+  bound.motion.frames.erase(bound.motion.frames.begin(), bound.motion.frames.begin() + 12);
+  bound.facts = Recognise(bound.motion, {}, name);
+  bound.binding = std::make_unique<RigBinding>(bound.motion, bound.facts,
+                                               ChestBone(bound.motion, bound.facts.map), 0);
+  return bound;
+}
+
+TEST(AcclaimTest, IsRecognisedAndBoundAsItsTwin) {
+  SKIP_WITHOUT_SHARED_DATA();
+  const Bound amc = Bind(ReadAcclaim(kClip + ".asf", kClip + ".amc").motion, "16.amc");
+  const Bound bvh = Bind(ReadBvh(kClip + ".bvh").motion, "16.bvh");
+  EXPECT_EQ(amc.facts.map.profile, "cmu_asf");
+  EXPECT_EQ(amc.facts.unit_name, "cmu");
+  EXPECT_EQ(amc.facts.up, 'y');
+  EXPECT_NEAR(amc.facts.stature, bvh.facts.stature, 1e-3);
+  const auto name = [](const Bound& b, int joint) { return b.motion.rig.joints[joint].name; };
+  EXPECT_EQ(name(amc, amc.facts.map.left.hip), "lfemur");
+  EXPECT_EQ(name(amc, amc.facts.map.right.elbow), "rradius");
+  const Body &body = amc.binding->body(), &twin = bvh.binding->body();
+  int checked = 0;
+  double worst_angle = 0, worst_roll = 0, worst_distance = 0;
+  std::vector<Quat> roll(body.links.size(), Quat::Identity());
+  for (int f = 0; f < amc.motion.num_frames(); f += 4) {  // the twin's keys
+    const Pose p = amc.binding->PoseOf(amc.motion.frames[static_cast<size_t>(f)]);
+    const Pose q = bvh.binding->PoseOf(bvh.motion.frames[static_cast<size_t>(f)]);
+    const PosedBody a = PoseBody(body, p), b = PoseBody(twin, q);
+    for (size_t n = 0; n < a.node.size(); ++n) {
+      worst_distance = std::max(worst_distance, (a.node[n] - b.node[n]).norm());
+    }
+    for (size_t l = 0; l < a.rotation.size(); ++l, ++checked) {
+      // The twin's arms hang in its rest pose with any roll, and the binding cannot know which: the
+      // links of an arm agree but for a constant turn about themselves.
+      const Quat apart(Mat3(a.rotation[l].transpose() * b.rotation[l]));
+      const std::string& link = body.links[l].name;
+      const bool arm =
+          link.ends_with("shoulder") || link.ends_with("elbow") || link.ends_with("wrist");
+      if (f == 0 && arm) roll[l] = TwistAbout(apart, body.links[l].limit.axis);
+      const double angle = apart.angularDistance(roll[l]);
+      (arm ? worst_roll : worst_angle) = std::max(arm ? worst_roll : worst_angle, angle);
+    }
+  }
+  EXPECT_GT(checked, 2000);
+  EXPECT_LT(worst_angle, 0.01 * kDegree);
+  EXPECT_LT(worst_roll, 0.01 * kDegree);
+  EXPECT_LT(worst_distance, 5e-5);
+}
+
+// An edit as the solver makes it, on bones that can hold only a part of it.
+TEST(AcclaimTest, EditedPosesComeBackAsFarAsTheBonesAllow) {
+  SKIP_WITHOUT_SHARED_DATA();
+  const AcclaimFile file = ReadAcclaim(kClip + ".asf", kClip + ".amc");
+  const Bound bound = Bind(file.motion, "16.amc");
+  const Body& body = bound.binding->body();
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  RigMotion edited = bound.motion;
+  edited.frames.clear();
+  std::vector<Pose> wanted;
+  for (int f = 0; f < bound.motion.num_frames(); f += 20) {
+    const RigFrame& frame = bound.motion.frames[static_cast<size_t>(f)];
+    Pose pose = bound.binding->PoseOf(frame);
+    pose.root_position += 0.1 * Vec3(normal(random), normal(random), normal(random));
+    for (Quat& q : pose.rotation) {
+      q = q * ExpSo3(0.1 * Vec3(normal(random), normal(random), normal(random)));
+    }
+    wanted.push_back(pose);
+    edited.frames.push_back(bound.binding->Apply(frame, pose));
+  }
+  const AcclaimFile back =
+      ParseAcclaim(file.asf_text, "16.asf", FormatAmc(file, edited), "edited.amc");
+  std::map<std::string, double> worst;
+  double sum = 0;
+  int num = 0;
+  for (size_t f = 0; f < wanted.size(); ++f) {
+    const PosedBody a = PoseBody(body, wanted[f]);
+    const PosedBody b = PoseBody(body, bound.binding->PoseOf(back.motion.frames[f]));
+    const std::vector<Vec3> held = bound.binding->JointPositions(edited.frames[f]);
+    const std::vector<Vec3> got = bound.binding->JointPositions(back.motion.frames[f]);
+    for (int n = 0; n < body.num_nodes(); ++n) {
+      const double d = (a.node[n] - b.node[n]).norm();
+      worst[body.nodes[n].name] = std::max(worst[body.nodes[n].name], d);
+      sum += d;
+      ++num;
+    }
+  }
+  for (auto& [n, d] : worst) printf("%s %.4f\n", n.c_str(), d);
+  printf("mean %g\n", sum / num);
+}
+
+TEST(AcclaimTest, DamagedFilesAreReadOrRefused) {
+  const std::string seed = ReadWholeFile(ProjectPath("tests/fuzz/seeds/acclaim_fuzz/figure.txt"));
+  const size_t cut = seed.find('\f');
+  std::vector<std::pair<std::string, std::string>> files = {
+      {seed.substr(0, cut), seed.substr(cut + 1)}};
+  if (std::filesystem::exists(kClip + ".asf")) {
+    files.emplace_back(ReadWholeFile(kClip + ".asf"), CutAmc(ReadWholeFile(kClip + ".amc"), 40));
+    ASSERT_LT(files.back().second.size(), 50'000u);
+  }
+  for (const auto& [asf, amc] : files) ASSERT_TRUE(ReadsOrRefusesAcclaim(asf, amc));
+  int accepted = 0;
+  constexpr int kCopies = 500;
+  for (uint64_t copy = 0; copy < kCopies; ++copy) {
+    auto [asf, amc] = files[copy % files.size()];
+    DamageAcclaim(copy, &asf, &amc);
+    ASSERT_NO_THROW(accepted += ReadsOrRefusesAcclaim(asf, amc) ? 1 : 0) << copy;
+  }
+  EXPECT_GT(accepted, 20);  // both outcomes were reached
+  EXPECT_LT(accepted, kCopies - 20);
 }
 
 }  // namespace
