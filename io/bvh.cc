@@ -12,6 +12,7 @@
 
 #include "io/bvh_hierarchy.h"
 #include "io/bvh_text.h"
+#include "io/euler_angles.h"
 
 namespace retarget {
 namespace {
@@ -84,13 +85,6 @@ void ReadRow(const Cursor& cursor, std::string_view line, std::vector<double>* r
   }
 }
 
-Quat AxisTurn(int axis, double degrees) {
-  const double half = degrees * kDegree / 2;
-  Quat q(std::cos(half), 0, 0, 0);
-  q.vec()[axis] = std::sin(half);
-  return q;
-}
-
 RigFrame FrameOfRow(const BvhFile& file, const std::vector<double>& row) {
   const auto& joints = file.motion.rig.joints;
   RigFrame frame;
@@ -104,7 +98,8 @@ RigFrame FrameOfRow(const BvhFile& file, const std::vector<double>& row) {
       if (kind < kFirstRotationChannel) {
         frame.translation[j][kind] = value;
       } else {
-        frame.rotation[j] = frame.rotation[j] * AxisTurn(kind - kFirstRotationChannel, value);
+        frame.rotation[j] =
+            frame.rotation[j] * AxisTurn(kind - kFirstRotationChannel, value * kDegree);
       }
     }
   }

@@ -1,7 +1,6 @@
 // FormatBvh of io/bvh.h.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -10,61 +9,18 @@
 #include "io/bvh.h"
 #include "io/bvh_hierarchy.h"
 #include "io/bvh_text.h"
+#include "io/euler_angles.h"
 
 namespace retarget {
 namespace {
 
-// The axes of R_i(a) R_j(b) R_k(c).
-struct EulerOrder {
-  int i, j, k;
-  double sign;  // +1 if (i, j, k) is an even permutation of (x, y, z)
-  explicit EulerOrder(const std::array<int, 3>& axes)
-      : i(axes[0]), j(axes[1]), k(axes[2]), sign((j - i + 3) % 3 == 1 ? 1.0 : -1.0) {}
-};
-
-double NearestTurn(double angle, double previous) {
-  return angle + 2 * kPi * std::round((previous - angle) / (2 * kPi));
-}
-
-// The angles b and c that complete a given first angle a.
-Vec3 CompleteAngles(const Mat3& r, const EulerOrder& o, double a) {
-  const Mat3 rest = Eigen::AngleAxisd(-a, Vec3::Unit(o.i)).toRotationMatrix() * r;  // R_j(b) R_k(c)
-  return {a, std::atan2(o.sign * rest(o.i, o.k), rest(o.k, o.k)),
-          std::atan2(o.sign * rest(o.j, o.i), rest(o.j, o.j))};
-}
-
-// Angles (rad) with r = R_i(a) R_j(b) R_k(c), of all such triples the nearest to `previous`.
-Vec3 EulerAngles(const Mat3& r, const EulerOrder& o, const Vec3& previous) {
-  // Below it the first angle is noise, and any choice of it errs by less than this (rad).
-  constexpr double kGimbalLock = 1e-7;
-  const bool locked = std::hypot(r(o.j, o.k), r(o.k, o.k)) < kGimbalLock;
-  const double a = locked ? previous[0] : std::atan2(-o.sign * r(o.j, o.k), r(o.k, o.k));
-  Vec3 best = Vec3::Zero();
-  double best_distance = -1;
-  for (double first : {a, a + kPi}) {
-    Vec3 triple = CompleteAngles(r, o, first);
-    for (int n = 0; n < 3; ++n) triple[n] = NearestTurn(triple[n], previous[n]);
-    const double distance = (triple - previous).squaredNorm();
-    if (best_distance < 0 || distance < best_distance) {
-      best = triple;
-      best_distance = distance;
-    }
-  }
-  return best;
-}
-
 // Rotation channels of a joint in file order, filled up to three axes.
 std::array<int, 3> RotationAxes(const std::vector<int>& kinds) {
-  std::array<int, 3> axes = {-1, -1, -1};
-  size_t n = 0;
-  const auto add = [&](int axis) {
-    if (std::find(axes.begin(), axes.end(), axis) == axes.end()) axes[n++] = axis;
-  };
+  std::vector<int> axes;
   for (int kind : kinds) {
-    if (kind >= kFirstRotationChannel) add(kind - kFirstRotationChannel);
+    if (kind >= kFirstRotationChannel) axes.push_back(kind - kFirstRotationChannel);
   }
-  for (int axis = 0; axis < 3; ++axis) add(axis);
-  return axes;
+  return CompleteAxes(axes);
 }
 
 void AppendNumber(double value, std::string* out) {
@@ -79,8 +35,7 @@ void AppendFrame(const BvhFile& original, const RigFrame& frame, std::vector<Vec
   for (size_t j = 0; j < original.channels.size(); ++j) {
     const std::array<int, 3> axes = RotationAxes(original.channels[j]);
     Vec3& triple = (*angles)[j];
-    triple =
-        EulerAngles(frame.rotation[j].normalized().toRotationMatrix(), EulerOrder(axes), triple);
+    triple = EulerAngles(frame.rotation[j].normalized().toRotationMatrix(), axes, triple);
     int next_angle = 0;
     for (int kind : original.channels[j]) {
       if (out->back() != '\n') out->push_back(' ');
