@@ -78,6 +78,13 @@ class Checker {
         out[key].push_back(Take(document_[key][i], *fields, fmt::format("{}[{}]", key, i)));
       }
     }
+    for (size_t i = 0; i < SizeOf("nodes"); ++i) {  // tinygltf would drop what it does not expect
+      const json& node = out["nodes"][i];
+      if (!node.contains("matrix")) continue;
+      if (node.contains("translation") || node.contains("rotation") || node.contains("scale")) {
+        Fail(fmt::format("nodes[{}]", i), "either a matrix or translation, rotation and scale");
+      }
+    }
     for (size_t i = 0; i < SizeOf("animations"); ++i) {
       out["animations"].push_back(CheckedAnimation(i));
     }

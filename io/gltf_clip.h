@@ -1,9 +1,10 @@
 // Characters and motions in glTF 2.0: .glb, .gltf, and what is built on them: VRM 0.x, VRM 1.0,
 // VRMA.
 //
-// A file's node tree becomes a rig: the joints of one character's skins, the nodes between and
-// below them that carry no mesh, and animated nodes above them. Everything still above is folded
-// into the roots, scales into the translations, so that the rig is rigid and in metres, Y up.
+// A file's node tree becomes a rig: the joints of one character's skins, the nodes between them,
+// animated nodes above and below them, and what hangs below and carries no mesh. Everything still
+// above is folded into the roots, scales into the translations, so that the rig is rigid and in
+// metres, Y up.
 #pragma once
 
 #include <optional>

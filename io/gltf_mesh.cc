@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/gltf_clip.h"
 #include "io/gltf_skeleton.h"
@@ -11,6 +12,13 @@ namespace retarget {
 namespace {
 
 constexpr double kQuantile = 0.75;
+
+double Quantile(std::vector<double> values, double share) {
+  const auto at =
+      values.begin() + static_cast<long>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
 
 // Distance of `p` from the segment 0..end.
 double DistanceFromBone(const Vec3& p, const Vec3& end) {
@@ -102,9 +110,13 @@ std::vector<double> BoneRadii(const GltfClip& clip) {
     if (vertices[j].empty()) continue;
     if (ends[j].empty()) {
       // A leaf's bone goes through its flesh.
-      Vec3 sum = Vec3::Zero();
-      for (const Vec3& v : vertices[j]) sum += v;
-      ends[j].push_back(2 * sum / static_cast<double>(vertices[j].size()));
+      Vec3 middle;
+      for (int c = 0; c < 3; ++c) {
+        std::vector<double> values;
+        for (const Vec3& v : vertices[j]) values.push_back(v[c]);
+        middle[c] = Quantile(std::move(values), 0.5);
+      }
+      ends[j].push_back(2 * middle);
     }
     std::vector<double> distance;
     for (const Vec3& v : vertices[j]) {
@@ -112,10 +124,7 @@ std::vector<double> BoneRadii(const GltfClip& clip) {
       for (const Vec3& end : ends[j]) least = std::min(least, DistanceFromBone(v, end));
       distance.push_back(least);
     }
-    const auto at =
-        distance.begin() + static_cast<long>(kQuantile * static_cast<double>(distance.size() - 1));
-    std::nth_element(distance.begin(), at, distance.end());
-    out[j] = *at;
+    out[j] = Quantile(std::move(distance), kQuantile);
   }
   return out;
 }

@@ -87,8 +87,8 @@ class SkeletonBuilder {
     return tracks_.translation.contains(node) || tracks_.rotation.contains(node);
   }
 
-  // The seeds (without any: what is moved), moved nodes above them, all between, and the meshless
-  // branches below.
+  // The seeds (without any: what is moved), moved nodes above and below them, all between, and the
+  // meshless branches below.
   void Choose(bool bare) {
     const size_t count = model_.nodes.size();
     std::vector<bool> has_mesh(count), below(count);
@@ -107,7 +107,13 @@ class SkeletonBuilder {
     for (const int n : gltf_.order) {
       const int parent = gltf_.parent[n];
       below[n] = parent >= 0 && (below[parent] || chosen_[parent]);
-      if (below[n] && (leads_[n] || !has_mesh[n])) chosen_[n] = true;
+    }
+    std::vector<bool> carries = leads_;  // a seed or something that moves
+    for (auto it = gltf_.order.rbegin(); it != gltf_.order.rend(); ++it) {
+      const int n = *it, parent = gltf_.parent[n];
+      carries[n] = carries[n] || (below[n] && IsMoved(n));
+      if (below[n] && (carries[n] || !has_mesh[n])) chosen_[n] = true;
+      if (parent >= 0) carries[parent] = carries[parent] || carries[n];
     }
   }
 
@@ -300,9 +306,6 @@ GltfTransform TransformOf(const tinygltf::Model& model, int n, const std::string
       out.rotation.normalize();
     }
     return out;
-  }
-  if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty()) {
-    fail("it has a matrix and also a translation, rotation or scale");
   }
   const Eigen::Map<const Matrix4d> matrix(node.matrix.data());  // column-major, as glTF
   Mat3 axes = matrix.topLeftCorner<3, 3>();

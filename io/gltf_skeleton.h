@@ -11,8 +11,7 @@
 namespace retarget {
 
 // Translation, rotation and scale of a node. A matrix is split up; `name` stands for the file.
-// Throws InputError where the rotation is not unit, both kinds are given, or the matrix shears or
-// mirrors.
+// Throws InputError where the rotation is not unit or the matrix is singular or shears.
 struct GltfTransform {
   Vec3 translation = Vec3::Zero();
   Quat rotation = Quat::Identity();

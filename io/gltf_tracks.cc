@@ -218,15 +218,29 @@ FrameTimes ChooseFrameTimes(const std::vector<const GltfTrack*>& tracks, const s
   if (out.times.size() < 2) return out;
 
   const double begin = out.times.front(), span = out.times.back() - begin;
+  const auto lie_on_grid = [&](double cell) {
+    return std::all_of(out.times.begin(), out.times.end(), [&](double t) {
+      return std::abs(std::remainder(t - begin, cell)) <= kOnGrid * cell;
+    });
+  };
   double step = span / static_cast<double>(out.times.size() - 1);
-  double gap = span;
   bool even = true;
-  for (size_t k = 1; k < out.times.size(); ++k) {
-    gap = std::min(gap, out.times[k] - out.times[k - 1]);
-    even = even && std::abs(out.times[k] - begin - static_cast<double>(k) * step) <= kOnGrid * step;
+  for (size_t k = 1; k < out.times.size() && even; ++k) {
+    even = std::abs(out.times[k] - begin - static_cast<double>(k) * step) <= kOnGrid * step;
   }
-  step = SnappedFrameTime(even ? step : gap);
+  if (!even) {
+    step = span;
+    for (size_t k = 1; k < out.times.size(); ++k) {
+      step = std::min(step, out.times[k] - out.times[k - 1]);
+    }
+  }
+  step = SnappedFrameTime(step);
   const bool too_fast = step < (1 - kOnGrid) / kHighestRate;
+  // Where keys lie uneven, a finer grid may still meet them all: then nothing is lost.
+  for (int finer = 2; !even && !lie_on_grid(step); ++finer) {
+    if (finer > kHighestRate * step * (1 + kOnGrid)) break;
+    if (lie_on_grid(step / finer)) step /= finer;
+  }
   step = std::max(step, 1 / kHighestRate);
   const bool refine = curved && 1 / step < kSmoothRate * (1 - 1e-3);
   if (refine) step /= std::ceil(kSmoothRate * step * (1 - 1e-3));

@@ -39,8 +39,9 @@ GltfTracks ReadTracks(const tinygltf::Animation& animation, GltfAccessors* acces
                       const std::string& name, std::vector<std::string>* notes);
 
 // Times of the frames of a motion: every track's keys where these lie evenly, else an even grid at
-// the highest rate found, at most 240 per second. Splines and steps slower than 30 per second get a
-// multiple of their rate, because frames are joined by straight lines.
+// the highest rate found, or at a multiple of it that meets all keys, at most 240 per second.
+// Splines and steps slower than 30 per second get a multiple of their rate, because frames are
+// joined by straight lines.
 struct FrameTimes {
   std::vector<double> times;  // s
   double frame_time = 1.0 / 30;
