@@ -1,42 +1,17 @@
 // ReadSceneGlb and ParseSceneGlb of io/scene_motion.h: the strict reader.
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <exception>
 #include <fstream>
 #include <set>
 #include <sstream>
 #include <utility>
 
+#include "io/gltf_load.h"
 #include "io/scene_motion.h"
 
 namespace retarget {
-namespace {
-
-std::uint32_t WordAt(const std::string& bytes, size_t offset) {
-  std::uint32_t word = 0;
-  for (int i = 3; i >= 0; --i) word = word << 8 | static_cast<unsigned char>(bytes[offset + i]);
-  return word;
-}
-
-// Whether header, JSON chunk and binary chunk fill `bytes` exactly. tinygltf 2.7 leaves the chunk
-// header out of its own bounds check, so a file cut by a few bytes would be read past its end.
-bool HasGlbFrame(const std::string& bytes) {
-  constexpr size_t kHeader = 12, kChunkHeader = 8;
-  constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBin = 0x004E4942;
-  if (bytes.size() < kHeader + kChunkHeader || bytes.size() > UINT32_MAX) return false;
-  if (WordAt(bytes, 0) != kMagic || WordAt(bytes, 4) != 2) return false;
-  if (WordAt(bytes, 8) != bytes.size() || WordAt(bytes, 16) != kJson) return false;
-  const size_t bin = kHeader + kChunkHeader + WordAt(bytes, 12);
-  if (bin + kChunkHeader > bytes.size() || WordAt(bytes, bin + 4) != kBin) return false;
-  return bin + kChunkHeader + WordAt(bytes, bin) == bytes.size();
-}
-
-}  // namespace
 
 // Turns a glTF document into a SceneMotion, and refuses what it does not understand.
 class SceneMotionReader {
@@ -44,7 +19,8 @@ class SceneMotionReader {
   explicit SceneMotionReader(const std::string& name) { motion_.name_ = name; }
 
   SceneMotion Read(const std::string& bytes) {
-    Load(bytes);
+    LoadedGltf gltf = LoadGltf(bytes, motion_.name_, "");
+    model_ = std::move(gltf.model);
     ReadNodes();
     if (model_.animations.size() != 1) {
       Fail(fmt::format("{} animations, expected exactly 1", model_.animations.size()));
@@ -63,24 +39,6 @@ class SceneMotionReader {
  private:
   [[noreturn]] void Fail(const std::string& what) const {
     throw InputError(motion_.name_ + ": " + what);
-  }
-
-  void Load(const std::string& bytes) {
-    if (!HasGlbFrame(bytes)) Fail("damaged, or not a binary glTF 2.0 file with one buffer");
-    tinygltf::TinyGLTF loader;
-    loader.SetImageLoader([](auto...) { return true; }, nullptr);  // a scene's motion has no images
-    std::string errors, warnings;
-    bool loaded = false;
-    try {
-      loaded = loader.LoadBinaryFromMemory(&model_, &errors, &warnings,
-                                           reinterpret_cast<const unsigned char*>(bytes.data()),
-                                           static_cast<unsigned int>(bytes.size()));
-    } catch (const std::exception& error) {  // the JSON parser's own
-      errors = error.what();
-    }
-    if (loaded) return;
-    std::replace(errors.begin(), errors.end(), '\n', ' ');
-    Fail("not a valid glTF document: " + errors);
   }
 
   // Keeps the nodes parents first, and remembers where each went.

@@ -16,6 +16,7 @@ struct RigJoint {
   Vec3 offset = Vec3::Zero();    // rest translation in the parent's frame (file units)
   std::optional<Vec3> end_site;  // a leaf's end point in its own frame (file units)
   bool translates = false;       // the file moves this joint (position channels on all axes)
+  Quat rest_rotation = Quat::Identity();  // in the parent's frame; of a BVH always this
 };
 
 struct Rig {

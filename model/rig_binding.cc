@@ -191,7 +191,7 @@ double RigBinding::StandingScore(const World& world) const {
 
 RigBinding::World RigBinding::ReferenceFrame(const RigMotion& motion) const {
   RigFrame rest = motion.frames.front();
-  for (Quat& q : rest.rotation) q.setIdentity();
+  for (int j = 0; j < rig_.num_joints(); ++j) rest.rotation[j] = rig_.joints[j].rest_rotation;
   World best = ToWorld(rest);
   double best_score = StandingScore(best);
   const int step = std::max(1, motion.num_frames() / kMostSamples);

@@ -1,0 +1,83 @@
+// Any bytes: the reader takes them or throws InputError with one line, and what it takes can be
+// measured, written and read again as it was.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+#include "io/gltf_clip.h"
+
+namespace retarget {
+namespace {
+
+[[noreturn]] void Broken(const std::string& what) {
+  std::cerr << what << "\n";
+  std::abort();
+}
+
+void CheckMessage(const InputError& error) {
+  const std::string message = error.what();
+  if (message.empty() || message.size() > 1000 || message.find('\n') != std::string::npos) {
+    Broken("a message is not one line: " + message);
+  }
+}
+
+void CheckFrames(const GltfClip& clip) {
+  if (clip.motion.frames.empty() || clip.joints.empty()) Broken("no frames");
+  for (const RigFrame& frame : clip.motion.frames) {
+    for (size_t j = 0; j < clip.joints.size(); ++j) {
+      const bool sound = frame.translation[j].allFinite() &&
+                         std::abs(frame.rotation[j].norm() - 1) < 1e-6 &&
+                         clip.motion.rig.joints[j].parent < static_cast<int>(j);
+      if (!sound) Broken("a frame is damaged");
+    }
+  }
+}
+
+void TakeApart(const std::string& bytes) {
+  GltfClip clip;
+  try {
+    clip = ParseGltf(bytes, "a.glb", "");
+  } catch (const InputError& error) {
+    CheckMessage(error);
+    // Where there is a choice, the first will do.
+    try {
+      clip = ParseGltf(bytes, "a.glb", "", {"0", "0"});
+    } catch (const InputError& again) {
+      return CheckMessage(again);
+    }
+  }
+  CheckFrames(clip);
+  try {
+    for (const double radius : BoneRadii(clip)) {
+      if (!(radius >= 0)) Broken("a radius is no length");
+    }
+  } catch (const InputError& error) {
+    CheckMessage(error);
+  }
+  std::string written;
+  try {
+    written = FormatGltf(clip, clip.motion, 0, "retargeted");
+  } catch (const InputError& error) {
+    return CheckMessage(error);
+  }
+  try {
+    // Its skin is not selected again: a document may hold several characters.
+    const GltfClip again = ParseGltf(written, "again", "", {"retargeted", ""});
+    if (again.motion.num_frames() != clip.motion.num_frames()) {
+      std::cerr << again.motion.num_frames() << " frames for " << clip.motion.num_frames() << "\n";
+    }
+  } catch (const InputError& error) {
+    CheckMessage(error);
+  }
+}
+
+}  // namespace
+}  // namespace retarget
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
+  retarget::TakeApart(std::string(reinterpret_cast<const char*>(data), size));
+  return 0;
+}
