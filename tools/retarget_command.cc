@@ -249,6 +249,8 @@ int RunRetarget(const RetargetOptions& options) {
                       rig[f].error_m <= kWriteBackLimit, ""});
   }
   const bool all_met = AllMet(checks);
+  const std::vector<Conflict> conflicts = FindConflicts(
+      Problem(result.scene, settings), result.solve.unknowns, subject, metrics, checks);
   const int exit_code = ExitCodeOf(result.solve.status, all_met);
 
   // Report and write.
@@ -278,6 +280,7 @@ int RunRetarget(const RetargetOptions& options) {
   }
   report["metrics"] = ThreeMetricsJson(subject, source.metrics(), baseline, metrics);
   report["requirements"] = ChecksJson(checks);
+  report["conflicts"] = ConflictsJson(conflicts);
   report["warnings"] = result.warnings;
   report["literal_tangles"] = result.tangles.literal.size();
   report["solve"] = SolveJson(result);
@@ -305,6 +308,7 @@ int RunRetarget(const RetargetOptions& options) {
     return exit_code;
   }
   fmt::print("{}", MetricsTable(subject, source.metrics(), baseline, metrics, checks));
+  for (const Conflict& conflict : conflicts) fmt::print("  {}\n", conflict.sentence);
   fmt::print(
       "{} frames in {:.2f} s ({:.0f} frames/s, {} iterations), start {:.2f} s; written to {}\n",
       result.scene.num_frames(), result.solve.seconds,
