@@ -2,10 +2,8 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
-#include "model/settings.h"
 #include "solver/series.h"
 
 namespace retarget {
@@ -56,18 +54,5 @@ Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const M
 // The same from a series that has been measured already, and the source's node places per frame.
 Metrics MetricsOf(const MeasureSubject& subject, const FrameSeries& series,
                   const std::vector<NodePositions>& source);
-
-// A requirement and whether it is met; `where` names frame and limb of the worst.
-struct RequirementCheck {
-  std::string name;
-  double value = 0, limit = 0;
-  std::string unit;
-  bool met = true;
-  std::string where;
-};
-bool AllMet(const std::vector<RequirementCheck>& checks);
-std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject,
-                                                const Metrics& metrics,
-                                                const Requirements& requirements);
 
 }  // namespace retarget

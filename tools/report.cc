@@ -259,6 +259,19 @@ Json ThreeMetricsJson(const MeasureSubject& subject, const Metrics& source, cons
           {"result", MetricsJson(subject, result)}};
 }
 
+Json ConflictsJson(const std::vector<Conflict>& conflicts) {
+  Json out = Json::array();
+  for (const Conflict& c : conflicts) {
+    out.push_back({{"requirement", c.requirement},
+                   {"frame", c.frame < 0 ? Json(nullptr) : Json(c.frame)},
+                   {"limbs", c.limbs},
+                   {"terms", c.terms},
+                   {"cosine", c.terms.size() < 2 ? Json(nullptr) : Json(c.cosine)},
+                   {"sentence", c.sentence}});
+  }
+  return out;
+}
+
 Json ChecksJson(const std::vector<RequirementCheck>& checks) {
   Json out = Json::array();
   for (const RequirementCheck& c : checks) {

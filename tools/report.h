@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/scene_motion.h"
-#include "solver/measure.h"
+#include "solver/conflict.h"
 #include "solver/retarget.h"
 #include "tools/load_clip.h"
 
@@ -68,6 +68,7 @@ Json SubjectJson(const MeasureSubject& subject, const Metrics& result);
 // The subject of a report read back. Throws InputError naming `path`.
 MeasureSubject SubjectFromJson(const Json& report, const std::string& path);
 
+Json ConflictsJson(const std::vector<Conflict>& conflicts);
 Json ChecksJson(const std::vector<RequirementCheck>& checks);
 
 }  // namespace retarget

@@ -103,11 +103,14 @@ int RunRetarget(const RetargetOptions& options) {
                       rig[f].error_m <= kWriteBackLimit, ""});
   }
   const bool all_met = AllMet(checks);
+  const std::vector<Conflict> conflicts = FindConflicts(
+      Problem(result.scene, settings), result.solve.unknowns, subject, metrics, checks);
   const int exit_code = ExitCodeOf(result.solve.status, all_met);
 
   // Report and write.
-  const Json report = RunReport({options, settings, job, result, subject, checks, exit_code, rig},
-                                source.metrics(), baseline.metrics(), metrics);
+  const Json report =
+      RunReport({options, settings, job, result, subject, checks, conflicts, exit_code, rig},
+                source.metrics(), baseline.metrics(), metrics);
   output.Add("scene.glb", scene.bytes());
   output.Add("source.glb", source.bytes());
   output.Add("baseline.glb", baseline.bytes());
@@ -124,6 +127,7 @@ int RunRetarget(const RetargetOptions& options) {
     return exit_code;
   }
   fmt::print("{}", MetricsTable(subject, source.metrics(), &baseline.metrics(), metrics, checks));
+  for (const Conflict& conflict : conflicts) fmt::print("  {}\n", conflict.sentence);
   fmt::print(
       "{} frames in {:.2f} s ({:.0f} frames/s, {} iterations), start {:.2f} s; written to {}\n",
       result.scene.num_frames(), result.solve.seconds,

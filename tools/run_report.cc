@@ -129,6 +129,7 @@ Json RunReport(const RunFacts& run, const Metrics& source, const Metrics& baseli
   }
   report["metrics"] = ThreeMetricsJson(run.subject, source, &baseline, metrics);
   report["requirements"] = ChecksJson(run.checks);
+  report["conflicts"] = ConflictsJson(run.conflicts);
   report["warnings"] = result.warnings;
   report["literal_tangles"] = result.tangles.literal.size();
   report["solve"] = SolveJson(result);

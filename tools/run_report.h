@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "solver/conflict.h"
 #include "tools/job.h"
 #include "tools/report.h"
 
@@ -23,6 +24,7 @@ struct RunFacts {
   const RetargetResult& result;
   const MeasureSubject& subject;
   const std::vector<RequirementCheck>& checks;
+  const std::vector<Conflict>& conflicts;
   int exit_code;
   const std::array<WrittenRig, 2>& rig;
 };

@@ -1,5 +1,5 @@
 // The metrics on hand-made motions whose values follow from a ruler.
-#include "solver/measure.h"
+#include "solver/requirements.h"
 
 #include <gtest/gtest.h>
 
