@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/joint_profiles.h"
+#include "model/rig_points.h"
 
 namespace retarget {
 namespace {
@@ -30,20 +31,26 @@ class ShapeMatcher {
     }
   }
 
-  // The map with sides not yet told: "left" is one of the two.
-  std::optional<JointMap> Match() const {
-    for (int root = 0; root < rig_.num_joints(); ++root) {
+  // Every way to read the tree as a human's, with sides not yet told: "left" is one of the two.
+  // The readings of the first joint that has any.
+  std::vector<JointMap> Match() const {
+    std::vector<JointMap> readings;
+    for (int root = 0; root < rig_.num_joints() && readings.empty(); ++root) {
       const std::vector<int> limbs = LongChildren(root, kLimb * reach_[root]);
-      if (limbs.size() < 2) continue;
-      if (limbs.size() != 3) return std::nullopt;
-      return MatchAt(root, limbs);
+      if (limbs.size() < 2 || limbs.size() > kMostLimbs) continue;
+      for (const int trunk : limbs) {
+        for (const auto& [leg, other] : PairsBeside(limbs, trunk)) {
+          AddReadings(root, trunk, leg, other, &readings);
+        }
+      }
     }
-    return std::nullopt;
+    return readings;
   }
 
  private:
   // Shares of the reach from the root that make a limb, and that make a neck.
   static constexpr double kLimb = 0.3, kNeck = 0.06;
+  static constexpr size_t kMostLimbs = 8;  // of one joint
 
   // From the joint's parent to the farthest end below the joint.
   double Extent(int joint) const { return length_[joint] + reach_[joint]; }
@@ -56,44 +63,58 @@ class ShapeMatcher {
     return out;
   }
 
-  std::optional<JointMap> MatchAt(int root, const std::vector<int>& limbs) const {
-    std::optional<JointMap> only;
-    for (size_t trunk = 0; trunk < 3; ++trunk) {
-      auto map = WithTrunk(root, limbs[trunk], limbs[(trunk + 1) % 3], limbs[(trunk + 2) % 3]);
-      if (!map) continue;
-      if (only) return std::nullopt;  // ambiguous
-      only = std::move(map);
+  // Pairs of equal limbs without `left_out`: of one joint, or of the fork of a single branch (a
+  // pelvis bone that carries both legs).
+  std::vector<std::pair<int, int>> PairsBeside(const std::vector<int>& limbs, int left_out) const {
+    std::vector<std::pair<int, int>> pairs;
+    std::vector<int> others;
+    for (const int limb : limbs) {
+      if (limb != left_out) others.push_back(limb);
     }
-    return only;
+    if (others.size() == 1) {
+      int branch = others[0];
+      const double at_least = kLimb * Extent(branch);
+      while (LongChildren(branch, at_least).size() == 1) branch = LongChildren(branch, at_least)[0];
+      others = LongChildren(branch, at_least);
+      if (others.size() > kMostLimbs) return {};
+    }
+    for (size_t i = 0; i < others.size(); ++i) {
+      for (size_t j = i + 1; j < others.size(); ++j) {
+        if (AboutEqual(Extent(others[i]), Extent(others[j]))) {
+          pairs.emplace_back(others[i], others[j]);
+        }
+      }
+    }
+    return pairs;
   }
 
-  std::optional<JointMap> WithTrunk(int root, int trunk, int leg, int other_leg) const {
-    if (!AboutEqual(Extent(leg), Extent(other_leg))) return std::nullopt;
+  void AddReadings(int root, int trunk, int leg, int other_leg,
+                   std::vector<JointMap>* readings) const {
     JointMap map;
     map.profile = "topology";
     map.root = root;
-    int branch = trunk;
     std::vector<int> limbs;
-    for (;;) {
+    for (int branch = trunk;;) {
       map.spine.push_back(branch);
       limbs = LongChildren(branch, kNeck * reach_[root]);
       if (limbs.size() != 1) break;
       branch = limbs[0];
     }
-    if (limbs.size() != 3) return std::nullopt;
-    // The neck is the shortest of the three.
-    std::sort(limbs.begin(), limbs.end(), [&](int a, int b) { return Extent(a) < Extent(b); });
-    if (!AboutEqual(Extent(limbs[1]), Extent(limbs[2])) ||
-        AboutEqual(Extent(limbs[0]), Extent(limbs[1]))) {
-      return std::nullopt;
+    if (limbs.size() < 3 || limbs.size() > kMostLimbs) return;
+    if (!FillLeg(leg, &map.left) || !FillLeg(other_leg, &map.right)) return;
+    for (const int neck : limbs) {
+      for (const auto& [arm, other_arm] : PairsBeside(limbs, neck)) {
+        // The neck is shorter than the arms.
+        const double arms = std::min(Extent(arm), Extent(other_arm));
+        if (Extent(neck) > arms || AboutEqual(Extent(neck), arms)) continue;
+        JointMap reading = map;
+        if (!FillArm(arm, &reading.left) || !FillArm(other_arm, &reading.right)) continue;
+        const std::vector<int> path = LongestPath(neck);
+        if (path.size() > 1) reading.neck = {path[0]};
+        reading.head = path[std::min<size_t>(1, path.size() - 1)];
+        readings->push_back(reading);
+      }
     }
-    const bool limbs_found = FillArm(limbs[1], &map.left) && FillArm(limbs[2], &map.right) &&
-                             FillLeg(leg, &map.left) && FillLeg(other_leg, &map.right);
-    if (!limbs_found) return std::nullopt;
-    const std::vector<int> path = LongestPath(limbs[0]);
-    if (path.size() > 1) map.neck = {path[0]};
-    map.head = path[std::min<size_t>(1, path.size() - 1)];
-    return map;
   }
 
   // From `joint` down to the farthest leaf.
@@ -162,6 +183,28 @@ void SwapArms(JointMap* map) {
   }
 }
 
+// Whether the trunk ever continues the legs, as a human's does.
+bool StandsUpright(const std::vector<PosedRig>& poses, const RigPoints& p) {
+  constexpr double kCosine = 0.5;
+  return std::any_of(poses.begin(), poses.end(), [&](const PosedRig& pose) {
+    const Vec3 trunk = At(pose, p.neck) - At(pose, p.root);
+    const Vec3 legs = At(pose, p.left.hip) + At(pose, p.right.hip) - At(pose, p.left.ankle) -
+                      At(pose, p.right.ankle);
+    return trunk.dot(legs) > kCosine * trunk.norm() * legs.norm();
+  });
+}
+
+// Arms and trunk against legs, wide enough for children, giants and cartoons.
+bool HasHumanLimbs(const std::vector<PosedRig>& poses, const RigPoints& p) {
+  const auto length = [&](const RigPoint& a, const RigPoint& b) {
+    return MedianDistance(poses, a, b);
+  };
+  const double leg = length(p.left.hip, p.left.knee) + length(p.left.knee, p.left.ankle);
+  const double arm = length(p.left.shoulder, p.left.elbow) + length(p.left.elbow, p.left.wrist);
+  const double trunk = length(p.root, p.neck);
+  return arm > 0.35 * leg && arm < 1.3 * leg && trunk > 0.25 * leg && trunk < 1.5 * leg;
+}
+
 // Puts arms and legs on their sides: feet point forwards, left = up x forward. False where the
 // frames do not agree on it.
 bool TellSides(const Rig& rig, const std::vector<PosedRig>& poses, JointMap* map) {
@@ -188,11 +231,23 @@ bool TellSides(const Rig& rig, const std::vector<PosedRig>& poses, JointMap* map
 
 }  // namespace
 
-std::optional<JointMap> MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
-  if (rig.joints.empty() || poses.empty()) return std::nullopt;
-  auto map = ShapeMatcher(rig, poses.front()).Match();
-  if (map && !TellSides(rig, poses, &*map)) return std::nullopt;
-  return map;
+ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
+  if (rig.joints.empty() || poses.empty()) return {};
+  ShapeMatch match;
+  int humans = 0;
+  for (JointMap& map : ShapeMatcher(rig, poses.front()).Match()) {
+    const RigPoints points = FindPoints(rig, poses, map, FindChestBone(rig, poses, map));
+    if (!StandsUpright(poses, points)) {
+      match.refusal = "the trunk lies across the legs in every frame, as that of an animal does";
+      continue;
+    }
+    if (!HasHumanLimbs(poses, points) || !TellSides(rig, poses, &map)) continue;
+    ++humans;
+    match.map = std::move(map);
+  }
+  if (humans != 1) match.map.reset();
+  if (humans > 1) match.refusal = "the shape of its tree can be read in more than one way";
+  return match;
 }
 
 }  // namespace retarget
