@@ -63,7 +63,7 @@ class RigFigure {
     Rest();
   }
 
-  // A bone at a place of the rest pose (cm), after all others.
+  // A bone at a place of the rest pose (cm), after all others. Call Rest or Move afterwards.
   int Add(const std::string& name, int parent, const Vec3& where) {
     RigJoint joint;
     joint.name = name;
