@@ -75,8 +75,14 @@ class NameMatcher {
     const int root = Find(profile_.root, "");
     MatchSide(reading_.left, "left", &match_.map.left);
     MatchSide(reading_.right, "right", &match_.map.right);
-    if (!match_.missing.empty()) match_.figures = 1;
-    if (match_.missing.empty()) Arrange();
+    if (match_.missing.empty()) {
+      Arrange();
+    } else {
+      match_.figures = 1;
+      match_.map.root = root;
+      match_.map.spine = Chain(profile_.spine);
+      match_.map.neck = Chain(profile_.neck);
+    }
     for (const std::string& name : Words(profile_.spine)) CountName(name);
     for (const std::string& name : Words(profile_.extras)) CountName(name);
     const JointMap& map = match_.map;
@@ -107,6 +113,18 @@ class NameMatcher {
       return joint;
     }
     return -1;
+  }
+
+  // The bones of these names as far as they hang from one another.
+  std::vector<int> Chain(std::string_view names) const {
+    std::vector<int> chain;
+    for (const std::string& name : Words(names)) {
+      const int bone = index_.Find(Name(name, ""));
+      if (bone >= 0 && (chain.empty() || DescendsFrom(rig_, bone, chain.back()))) {
+        chain.push_back(bone);
+      }
+    }
+    return chain;
   }
 
   void CountName(const std::string& name) {

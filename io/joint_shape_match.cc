@@ -16,8 +16,9 @@ bool AboutEqual(double a, double b) { return std::abs(a - b) <= kEqualLengths * 
 
 class ShapeMatcher {
  public:
-  ShapeMatcher(const Rig& rig, const PosedRig& pose)
+  ShapeMatcher(const Rig& rig, const std::vector<PosedRig>& poses)
       : rig_(rig),
+        poses_(poses),
         length_(rig.joints.size(), 0),
         reach_(rig.joints.size(), 0),
         children_(rig.joints.size()) {
@@ -25,7 +26,8 @@ class ShapeMatcher {
       const RigJoint& joint = rig.joints[j];
       if (joint.end_site) reach_[j] = std::max(reach_[j], joint.end_site->norm());
       if (joint.parent < 0) continue;
-      length_[j] = (pose.position[j] - pose.position[joint.parent]).norm();
+      const auto& at = poses.front().position;
+      length_[j] = (at[j] - at[joint.parent]).norm();
       reach_[joint.parent] = std::max(reach_[joint.parent], Extent(j));
       children_[joint.parent].insert(children_[joint.parent].begin(), j);
     }
@@ -33,7 +35,7 @@ class ShapeMatcher {
 
   // Every way to read the tree as a human's, with sides not yet told: "left" is one of the two.
   // The readings of the first joint that has any.
-  std::vector<JointMap> Match() const {
+  std::vector<JointMap> Match() {
     std::vector<JointMap> readings;
     for (int root = 0; root < rig_.num_joints() && readings.empty(); ++root) {
       const std::vector<int> limbs = LongChildren(root, kLimb * reach_[root]);
@@ -46,6 +48,9 @@ class ShapeMatcher {
     }
     return readings;
   }
+
+  // Whether Match met four limbs, but a trunk that never continues the legs.
+  bool met_animal() const { return met_animal_; }
 
  private:
   // Shares of the reach from the root that make a limb, and that make a neck.
@@ -88,8 +93,7 @@ class ShapeMatcher {
     return pairs;
   }
 
-  void AddReadings(int root, int trunk, int leg, int other_leg,
-                   std::vector<JointMap>* readings) const {
+  void AddReadings(int root, int trunk, int leg, int other_leg, std::vector<JointMap>* readings) {
     JointMap map;
     map.profile = "topology";
     map.root = root;
@@ -101,6 +105,10 @@ class ShapeMatcher {
       branch = limbs[0];
     }
     if (limbs.size() < 3 || limbs.size() > kMostLimbs) return;
+    if (!StandsUpright(root, map.spine.back(), leg, other_leg)) {
+      for (const int neck : limbs) met_animal_ = met_animal_ || !PairsBeside(limbs, neck).empty();
+      return;
+    }
     if (!FillLeg(leg, &map.left) || !FillLeg(other_leg, &map.right)) return;
     for (const int neck : limbs) {
       for (const auto& [arm, other_arm] : PairsBeside(limbs, neck)) {
@@ -126,6 +134,18 @@ class ShapeMatcher {
                                        [&](int a, int b) { return Extent(a) < Extent(b); }));
     }
     return path;
+  }
+
+  // Whether the trunk ever continues the legs, as a human's does.
+  bool StandsUpright(int root, int top, int leg, int other_leg) const {
+    constexpr double kCosine = 0.5;
+    const int foot = LongestPath(leg).back(), other_foot = LongestPath(other_leg).back();
+    return std::any_of(poses_.begin(), poses_.end(), [&](const PosedRig& pose) {
+      const auto& p = pose.position;
+      const Vec3 trunk = p[top] - p[root];
+      const Vec3 legs = p[leg] + p[other_leg] - p[foot] - p[other_foot];
+      return trunk.dot(legs) > kCosine * trunk.norm() * legs.norm();
+    });
   }
 
   // Where the two longest neighbouring bones of a path begin. They must be alike, and no other
@@ -171,6 +191,8 @@ class ShapeMatcher {
   }
 
   const Rig& rig_;
+  const std::vector<PosedRig>& poses_;
+  bool met_animal_ = false;
   std::vector<double> length_;  // from the parent
   std::vector<double> reach_;   // to the farthest end below
   std::vector<std::vector<int>> children_;
@@ -181,17 +203,6 @@ void SwapArms(JointMap* map) {
                     &JointMap::Side::wrist, &JointMap::Side::hand}) {
     std::swap(map->left.*part, map->right.*part);
   }
-}
-
-// Whether the trunk ever continues the legs, as a human's does.
-bool StandsUpright(const std::vector<PosedRig>& poses, const RigPoints& p) {
-  constexpr double kCosine = 0.5;
-  return std::any_of(poses.begin(), poses.end(), [&](const PosedRig& pose) {
-    const Vec3 trunk = At(pose, p.neck) - At(pose, p.root);
-    const Vec3 legs = At(pose, p.left.hip) + At(pose, p.right.hip) - At(pose, p.left.ankle) -
-                      At(pose, p.right.ankle);
-    return trunk.dot(legs) > kCosine * trunk.norm() * legs.norm();
-  });
 }
 
 // Arms and trunk against legs, wide enough for children, giants and cartoons.
@@ -235,15 +246,15 @@ ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
   if (rig.joints.empty() || poses.empty()) return {};
   ShapeMatch match;
   int humans = 0;
-  for (JointMap& map : ShapeMatcher(rig, poses.front()).Match()) {
+  ShapeMatcher matcher(rig, poses);
+  for (JointMap& map : matcher.Match()) {
     const RigPoints points = FindPoints(rig, poses, map, FindChestBone(rig, poses, map));
-    if (!StandsUpright(poses, points)) {
-      match.refusal = "the trunk lies across the legs in every frame, as that of an animal does";
-      continue;
-    }
     if (!HasHumanLimbs(poses, points) || !TellSides(rig, poses, &map)) continue;
     ++humans;
     match.map = std::move(map);
+  }
+  if (humans == 0 && matcher.met_animal()) {
+    match.refusal = "the trunk lies across the legs in every frame, as that of an animal does";
   }
   if (humans != 1) match.map.reset();
   if (humans > 1) match.refusal = "the shape of its tree can be read in more than one way";

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -503,15 +502,6 @@ TEST(RecogniseTest, RealPairs) {
       EXPECT_TRUE(HasNote(facts, "--skip-frames 7 "));
     }
   }
-}
-
-TEST(RecogniseTest, EverySharedFileIsInTheTables) {
-  SKIP_WITHOUT_SHARED_DATA();
-  size_t num_clips = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(SharedPath("data/clips"))) {
-    num_clips += entry.path().extension() == ".bvh" ? 1 : 0;
-  }
-  EXPECT_EQ(num_clips, std::size(kExpected) - 3);  // three are of odd_bvh
 }
 
 TEST(RecogniseTest, ToysAreReadButRefused) {
