@@ -613,5 +613,60 @@ TEST(OtherConventions, TwoFiguresOfOneNamingAreTold) {
   }));
 }
 
+// In 3ds Max' own bipeds the thighs hang from the first spine bone: that is the root then.
+TEST(OtherConventions, LegsMayHangFromTheFirstSpineBone) {
+  const Skeleton biped = {"biped",
+                          "Bip01 Pelvis; Bip01 Spine, Bip01 Spine1, Bip01 Spine2; Bip01 Neck; "
+                          "Bip01 Head",
+                          "Bip01 L Clavicle, Bip01 L UpperArm, Bip01 L Forearm, Bip01 L Hand, "
+                          "Bip01 L Thigh, Bip01 L Calf, Bip01 L Foot",
+                          " L ", " R "};
+  RigFigure figure(NamesOf(biped));
+  Rig& rig = figure.motion.rig;
+  const int spine = rig.Find("Bip01 Spine");
+  for (const char* thigh : {"Bip01 L Thigh", "Bip01 R Thigh"}) {
+    RigJoint& joint = rig.joints[static_cast<size_t>(rig.Find(thigh))];
+    joint.offset -= rig.joints[static_cast<size_t>(spine)].offset;
+    joint.parent = spine;
+  }
+  figure.Rest();
+  const RigFacts facts = Recognise(figure.motion, {}, "f");
+  EXPECT_EQ(facts.map.profile, "biped");
+  EXPECT_EQ(facts.map.root, spine);
+  EXPECT_EQ(facts.map.spine,
+            (std::vector<int>{rig.Find("Bip01 Spine1"), rig.Find("Bip01 Spine2")}));
+  EXPECT_EQ(facts.map.left.hip, rig.Find("Bip01 L Thigh"));
+}
+
+// Two figures of two conventions, each as complete as the other: the user has to say which.
+TEST(OtherConventions, ATieIsRefusedByTheJointThatDiffers) {
+  const Skeleton kinect = {
+      "kinect", "PELVIS; SPINE_NAVAL, SPINE_CHEST; NECK; HEAD",
+      "CLAVICLE_LEFT, SHOULDER_LEFT, ELBOW_LEFT, WRIST_LEFT, HIP_LEFT, KNEE_LEFT, ANKLE_LEFT",
+      "LEFT", "RIGHT"};
+  const Skeleton avatar = {
+      "second_life", "mPelvis; mTorso, mChest; mNeck; mHead",
+      "mCollarLeft, mShoulderLeft, mElbowLeft, mWristLeft, mHipLeft, mKneeLeft, mAnkleLeft", "Left",
+      "Right"};
+  RigFigure figure(NamesOf(kinect)), other(NamesOf(avatar));
+  const int first = figure.motion.rig.num_joints();
+  for (RigJoint joint : other.motion.rig.joints) {
+    if (joint.parent >= 0) joint.parent += first;
+    figure.motion.rig.joints.push_back(joint);
+  }
+  figure.Rest();
+  std::string message;
+  try {
+    Recognise(figure.motion, {}, "f");
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_NE(
+      message.find("f: no human figure: left_shoulder may be 'SHOULDER_LEFT' (as 'kinect' has "
+                   "it) or 'mShoulderLeft' (as 'second_life' has it); to map it by hand: "),
+      std::string::npos)
+      << message;
+}
+
 }  // namespace
 }  // namespace retarget
