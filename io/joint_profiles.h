@@ -18,10 +18,12 @@ namespace retarget {
 
 // One naming convention. Names are normalised (NormalisedName); a field may hold several
 // alternatives between blanks, the preferred first. '#' stands for the convention's word for the
-// side, '@' for the letter l or r.
+// side, '@' for the letter l or r. Whatever else stands before or after the words of all names (a
+// character's name, "DEF-", "_JNT") is found out from the rig, and side words are also tried at the
+// other end: "#foot" finds LeftFoot and Foot.L.
 struct JointProfile {
   const char* name;
-  const char* prefixes;  // stripped from the front of a name, with digits that follow
+  const char* prefixes;  // of names that come twice: which of them to read first
   const char* sides;     // pairs "left/right"
   const char* root;
   const char* spine;
@@ -41,27 +43,38 @@ struct JointProfile {
 
 std::span<const JointProfile> JointProfiles();
 
-// The name without name space, prefix of the convention, separators and case:
-// "mixamorig1:LeftUpLeg" -> "leftupleg", "Bip01 L Thigh" -> "lthigh".
-std::string NormalisedName(std::string_view name, std::string_view prefixes);
+// The name without name space, separators and case: "mixamorig1:LeftUpLeg" -> "leftupleg",
+// "Bip01 L Thigh" -> "bip01lthigh".
+std::string NormalisedName(std::string_view name);
 
-// How well a rig's names follow one convention.
+// How well a rig's names follow one convention. Shoulders, elbows, hips and knees are required.
 struct NameMatch {
   JointMap map;                        // complete only if `missing` and `misplaced` are empty
   int score = 0;                       // number of names found
+  double share = 0;                    // of the body's joints found by name
+  int figures = 1;                     // that have these names
   std::vector<std::string> missing;    // required joints, by the project's names
   std::vector<std::string> misplaced;  // joints that do not hang where a human's do
+  std::vector<std::string> ignored;    // bones of other joints that do not
   bool complete() const { return missing.empty() && misplaced.empty(); }
 };
 NameMatch MatchNames(const Rig& rig, const JointProfile& profile);
 
 // The best of all conventions: complete before incomplete, then by score, then as listed.
-NameMatch MatchBestProfile(const Rig& rig);
+struct BestMatch {
+  NameMatch match;
+  std::optional<NameMatch> rival;  // as complete and with the same score, but other joints
+};
+BestMatch MatchBestProfile(const Rig& rig);
 
-// Without names: a root with two equal legs and a trunk that ends in two equal arms and a neck.
-// `poses` are some frames of the motion, to tell lengths and left from right (feet point forwards).
-// Nothing where the shape is not a human's or can be read in more than one way.
-std::optional<JointMap> MatchShape(const Rig& rig, const std::vector<PosedRig>& poses);
+// Without names: a root with two equal legs and a trunk that ends in two equal arms and a neck, and
+// that stands over the legs. `poses` are some frames of the motion, to tell lengths and left from
+// right (feet point forwards).
+struct ShapeMatch {
+  std::optional<JointMap> map;  // where the shape is a human's and can be read in one way only
+  std::string refusal;          // else why, where that is clear: "its trunk ..."
+};
+ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses);
 
 // Up to three joints of `rig` whose names come nearest to `wanted`, one of the project's names, as
 // `profile` would write it.

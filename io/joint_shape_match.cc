@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/joint_profiles.h"
+#include "model/rig_points.h"
 
 namespace retarget {
 namespace {
@@ -15,8 +16,9 @@ bool AboutEqual(double a, double b) { return std::abs(a - b) <= kEqualLengths * 
 
 class ShapeMatcher {
  public:
-  ShapeMatcher(const Rig& rig, const PosedRig& pose)
+  ShapeMatcher(const Rig& rig, const std::vector<PosedRig>& poses)
       : rig_(rig),
+        poses_(poses),
         length_(rig.joints.size(), 0),
         reach_(rig.joints.size(), 0),
         children_(rig.joints.size()) {
@@ -24,26 +26,36 @@ class ShapeMatcher {
       const RigJoint& joint = rig.joints[j];
       if (joint.end_site) reach_[j] = std::max(reach_[j], joint.end_site->norm());
       if (joint.parent < 0) continue;
-      length_[j] = (pose.position[j] - pose.position[joint.parent]).norm();
+      const auto& at = poses.front().position;
+      length_[j] = (at[j] - at[joint.parent]).norm();
       reach_[joint.parent] = std::max(reach_[joint.parent], Extent(j));
       children_[joint.parent].insert(children_[joint.parent].begin(), j);
     }
   }
 
-  // The map with sides not yet told: "left" is one of the two.
-  std::optional<JointMap> Match() const {
-    for (int root = 0; root < rig_.num_joints(); ++root) {
+  // Every way to read the tree as a human's, with sides not yet told: "left" is one of the two.
+  // The readings of the first joint that has any.
+  std::vector<JointMap> Match() {
+    std::vector<JointMap> readings;
+    for (int root = 0; root < rig_.num_joints() && readings.empty(); ++root) {
       const std::vector<int> limbs = LongChildren(root, kLimb * reach_[root]);
-      if (limbs.size() < 2) continue;
-      if (limbs.size() != 3) return std::nullopt;
-      return MatchAt(root, limbs);
+      if (limbs.size() < 2 || limbs.size() > kMostLimbs) continue;
+      for (const int trunk : limbs) {
+        for (const auto& [leg, other] : PairsBeside(limbs, trunk)) {
+          AddReadings(root, trunk, leg, other, &readings);
+        }
+      }
     }
-    return std::nullopt;
+    return readings;
   }
+
+  // Whether Match met four limbs, but a trunk that never continues the legs.
+  bool met_animal() const { return met_animal_; }
 
  private:
   // Shares of the reach from the root that make a limb, and that make a neck.
   static constexpr double kLimb = 0.3, kNeck = 0.06;
+  static constexpr size_t kMostLimbs = 8;  // of one joint
 
   // From the joint's parent to the farthest end below the joint.
   double Extent(int joint) const { return length_[joint] + reach_[joint]; }
@@ -56,44 +68,61 @@ class ShapeMatcher {
     return out;
   }
 
-  std::optional<JointMap> MatchAt(int root, const std::vector<int>& limbs) const {
-    std::optional<JointMap> only;
-    for (size_t trunk = 0; trunk < 3; ++trunk) {
-      auto map = WithTrunk(root, limbs[trunk], limbs[(trunk + 1) % 3], limbs[(trunk + 2) % 3]);
-      if (!map) continue;
-      if (only) return std::nullopt;  // ambiguous
-      only = std::move(map);
+  // Pairs of equal limbs without `left_out`: of one joint, or of the fork of a single branch (a
+  // pelvis bone that carries both legs).
+  std::vector<std::pair<int, int>> PairsBeside(const std::vector<int>& limbs, int left_out) const {
+    std::vector<std::pair<int, int>> pairs;
+    std::vector<int> others;
+    for (const int limb : limbs) {
+      if (limb != left_out) others.push_back(limb);
     }
-    return only;
+    if (others.size() == 1) {
+      int branch = others[0];
+      const double at_least = kLimb * Extent(branch);
+      while (LongChildren(branch, at_least).size() == 1) branch = LongChildren(branch, at_least)[0];
+      others = LongChildren(branch, at_least);
+      if (others.size() > kMostLimbs) return {};
+    }
+    for (size_t i = 0; i < others.size(); ++i) {
+      for (size_t j = i + 1; j < others.size(); ++j) {
+        if (AboutEqual(Extent(others[i]), Extent(others[j]))) {
+          pairs.emplace_back(others[i], others[j]);
+        }
+      }
+    }
+    return pairs;
   }
 
-  std::optional<JointMap> WithTrunk(int root, int trunk, int leg, int other_leg) const {
-    if (!AboutEqual(Extent(leg), Extent(other_leg))) return std::nullopt;
+  void AddReadings(int root, int trunk, int leg, int other_leg, std::vector<JointMap>* readings) {
     JointMap map;
     map.profile = "topology";
     map.root = root;
-    int branch = trunk;
     std::vector<int> limbs;
-    for (;;) {
+    for (int branch = trunk;;) {
       map.spine.push_back(branch);
       limbs = LongChildren(branch, kNeck * reach_[root]);
       if (limbs.size() != 1) break;
       branch = limbs[0];
     }
-    if (limbs.size() != 3) return std::nullopt;
-    // The neck is the shortest of the three.
-    std::sort(limbs.begin(), limbs.end(), [&](int a, int b) { return Extent(a) < Extent(b); });
-    if (!AboutEqual(Extent(limbs[1]), Extent(limbs[2])) ||
-        AboutEqual(Extent(limbs[0]), Extent(limbs[1]))) {
-      return std::nullopt;
+    if (limbs.size() < 3 || limbs.size() > kMostLimbs) return;
+    if (!StandsUpright(root, map.spine.back(), leg, other_leg)) {
+      for (const int neck : limbs) met_animal_ = met_animal_ || !PairsBeside(limbs, neck).empty();
+      return;
     }
-    const bool limbs_found = FillArm(limbs[1], &map.left) && FillArm(limbs[2], &map.right) &&
-                             FillLeg(leg, &map.left) && FillLeg(other_leg, &map.right);
-    if (!limbs_found) return std::nullopt;
-    const std::vector<int> path = LongestPath(limbs[0]);
-    if (path.size() > 1) map.neck = {path[0]};
-    map.head = path[std::min<size_t>(1, path.size() - 1)];
-    return map;
+    if (!FillLeg(leg, &map.left) || !FillLeg(other_leg, &map.right)) return;
+    for (const int neck : limbs) {
+      for (const auto& [arm, other_arm] : PairsBeside(limbs, neck)) {
+        // The neck is shorter than the arms.
+        const double arms = std::min(Extent(arm), Extent(other_arm));
+        if (Extent(neck) > arms || AboutEqual(Extent(neck), arms)) continue;
+        JointMap reading = map;
+        if (!FillArm(arm, &reading.left) || !FillArm(other_arm, &reading.right)) continue;
+        const std::vector<int> path = LongestPath(neck);
+        if (path.size() > 1) reading.neck = {path[0]};
+        reading.head = path[std::min<size_t>(1, path.size() - 1)];
+        readings->push_back(reading);
+      }
+    }
   }
 
   // From `joint` down to the farthest leaf.
@@ -105,6 +134,18 @@ class ShapeMatcher {
                                        [&](int a, int b) { return Extent(a) < Extent(b); }));
     }
     return path;
+  }
+
+  // Whether the trunk ever continues the legs, as a human's does.
+  bool StandsUpright(int root, int top, int leg, int other_leg) const {
+    constexpr double kCosine = 0.5;
+    const int foot = LongestPath(leg).back(), other_foot = LongestPath(other_leg).back();
+    return std::any_of(poses_.begin(), poses_.end(), [&](const PosedRig& pose) {
+      const auto& p = pose.position;
+      const Vec3 trunk = p[top] - p[root];
+      const Vec3 legs = p[leg] + p[other_leg] - p[foot] - p[other_foot];
+      return trunk.dot(legs) > kCosine * trunk.norm() * legs.norm();
+    });
   }
 
   // Where the two longest neighbouring bones of a path begin. They must be alike, and no other
@@ -150,6 +191,8 @@ class ShapeMatcher {
   }
 
   const Rig& rig_;
+  const std::vector<PosedRig>& poses_;
+  bool met_animal_ = false;
   std::vector<double> length_;  // from the parent
   std::vector<double> reach_;   // to the farthest end below
   std::vector<std::vector<int>> children_;
@@ -160,6 +203,17 @@ void SwapArms(JointMap* map) {
                     &JointMap::Side::wrist, &JointMap::Side::hand}) {
     std::swap(map->left.*part, map->right.*part);
   }
+}
+
+// Arms and trunk against legs, wide enough for children, giants and cartoons.
+bool HasHumanLimbs(const std::vector<PosedRig>& poses, const RigPoints& p) {
+  const auto length = [&](const RigPoint& a, const RigPoint& b) {
+    return MedianDistance(poses, a, b);
+  };
+  const double leg = length(p.left.hip, p.left.knee) + length(p.left.knee, p.left.ankle);
+  const double arm = length(p.left.shoulder, p.left.elbow) + length(p.left.elbow, p.left.wrist);
+  const double trunk = length(p.root, p.neck);
+  return arm > 0.35 * leg && arm < 1.3 * leg && trunk > 0.25 * leg && trunk < 1.5 * leg;
 }
 
 // Puts arms and legs on their sides: feet point forwards, left = up x forward. False where the
@@ -188,11 +242,23 @@ bool TellSides(const Rig& rig, const std::vector<PosedRig>& poses, JointMap* map
 
 }  // namespace
 
-std::optional<JointMap> MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
-  if (rig.joints.empty() || poses.empty()) return std::nullopt;
-  auto map = ShapeMatcher(rig, poses.front()).Match();
-  if (map && !TellSides(rig, poses, &*map)) return std::nullopt;
-  return map;
+ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
+  if (rig.joints.empty() || poses.empty()) return {};
+  ShapeMatch match;
+  int humans = 0;
+  ShapeMatcher matcher(rig, poses);
+  for (JointMap& map : matcher.Match()) {
+    const RigPoints points = FindPoints(rig, poses, map, FindChestBone(rig, poses, map));
+    if (!HasHumanLimbs(poses, points) || !TellSides(rig, poses, &map)) continue;
+    ++humans;
+    match.map = std::move(map);
+  }
+  if (humans == 0 && matcher.met_animal()) {
+    match.refusal = "the trunk lies across the legs in every frame, as that of an animal does";
+  }
+  if (humans != 1) match.map.reset();
+  if (humans > 1) match.refusal = "the shape of its tree can be read in more than one way";
+  return match;
 }
 
 }  // namespace retarget

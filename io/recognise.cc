@@ -1,4 +1,4 @@
-// Recognition; rig_measure.cc, rig_units.cc, t_pose.cc and map_report.cc do its parts.
+// Recognition; the files that it includes do its parts.
 #include "io/recognise.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "io/joint_profiles.h"
+#include "io/map_joints.h"
 #include "io/printable.h"
+#include "io/rig_check.h"
 #include "io/rig_measure.h"
 #include "io/rig_units.h"
 #include "io/t_pose.h"
@@ -30,77 +32,78 @@ std::string Quoted(const std::vector<std::string>& names) {
   return out;
 }
 
-[[noreturn]] void RefuseFigure(const Rig& rig, const NameMatch& match, const std::string& file) {
-  if (match.missing.empty()) {
-    throw InputError(fmt::format("{}: no human figure: its names follow '{}', but {}", file,
-                                 match.map.profile, Printable(match.misplaced.front())));
-  }
+// Every refusal ends with the way out.
+[[noreturn]] void RefuseFigure(const std::string& file, const std::string& why) {
+  throw InputError(
+      fmt::format("{}: no human figure: {}; to map it by hand: {}", file, why, MapByHand(file)));
+}
+
+std::string MissingJoints(const Rig& rig, const NameMatch& match) {
   constexpr size_t kShown = 4;
-  std::string missing, nearest;
+  std::string missing;
   for (size_t n = 0; n < std::min(kShown, match.missing.size()); ++n) {
     missing += (n > 0 ? ", " : "") + match.missing[n];
   }
   if (match.missing.size() > kShown) {
     missing += fmt::format(" and {} more", match.missing.size() - kShown);
   }
-  throw InputError(
-      fmt::format("{}: no human figure: nothing plays {} (nearest convention '{}'); "
-                  "the names nearest to {} are {}",
-                  file, missing, match.map.profile, match.missing.front(),
-                  Quoted(NearestNames(rig, match.missing.front(), match.map.profile))));
+  return fmt::format("nothing plays {} (nearest convention '{}'); the names nearest to {} are {}",
+                     missing, match.map.profile, match.missing.front(),
+                     Quoted(NearestNames(rig, match.missing.front(), match.map.profile)));
 }
 
-JointMap FindJoints(const RigMotion& motion, const std::vector<PosedRig>& poses,
-                    const std::string& file, std::vector<std::string>* notes) {
-  NameMatch match = MatchBestProfile(motion.rig);
-  if (match.complete()) return match.map;
-  std::optional<JointMap> map = MatchShape(motion.rig, poses);
-  if (!map) RefuseFigure(motion.rig, match, file);
-  notes->push_back("the joint names follow no known convention: joints were told by shape alone");
-  return *map;
-}
-
-// --- Notes on the figure ---
-
-void NoteUnequalSides(const std::vector<PosedRig>& poses, RigFacts* facts) {
+// The limb that two readings of the names give to different joints.
+[[noreturn]] void RefuseTie(const Rig& rig, const JointMap& a, const JointMap& b,
+                            const std::string& file) {
   using Side = JointMap::Side;
-  constexpr double kUnequal = 0.15;
-  const std::tuple<const char*, int Side::*, int Side::*> bones[] = {
-      {"upper arms", &Side::shoulder, &Side::elbow},
-      {"forearms", &Side::elbow, &Side::wrist},
-      {"thighs", &Side::hip, &Side::knee},
-      {"shins", &Side::knee, &Side::ankle}};
-  const JointMap& map = facts->map;
-  for (const auto& [name, from, to] : bones) {
-    const double left = MedianDistance(poses, map.left.*from, map.left.*to);
-    const double right = MedianDistance(poses, map.right.*from, map.right.*to);
-    if (std::abs(left - right) <= kUnequal * std::max(left, right)) continue;
-    facts->notes.push_back(fmt::format("left and right {} differ: {:.3f} m and {:.3f} m", name,
-                                       left * facts->metres_per_unit,
-                                       right * facts->metres_per_unit));
+  constexpr std::pair<const char*, int Side::*> kLimbs[] = {{"shoulder", &Side::shoulder},
+                                                            {"elbow", &Side::elbow},
+                                                            {"hip", &Side::hip},
+                                                            {"knee", &Side::knee}};
+  for (const auto& [side, name] :
+       {std::pair(&JointMap::left, "left"), {&JointMap::right, "right"}}) {
+    for (const auto& [part, joint] : kLimbs) {
+      const int first = a.*side.*joint, second = b.*side.*joint;
+      if (first == second) continue;
+      RefuseFigure(file, fmt::format("{}_{} may be '{}' (as '{}' has it) or '{}' (as '{}' has it)",
+                                     name, part, Printable(rig.joints[first].name), a.profile,
+                                     Printable(rig.joints[second].name), b.profile));
+    }
   }
+  RefuseFigure(file, "its names can be read in two ways");
 }
 
-// Where the foot points, from the toe joint or the ankle's End Site; zero where neither is there.
-Vec3 FootDirection(const Rig& rig, const PosedRig& pose, const JointMap::Side& side) {
-  if (side.toe >= 0) return pose.position[side.toe] - pose.position[side.ankle];
-  return pose.rotation[side.ankle] * rig.joints[side.ankle].end_site.value_or(Vec3::Zero());
-}
-
-// Left must be left of where the feet point, else the file may be mirrored or its names exchanged.
-void NoteMirroring(const Rig& rig, const std::vector<PosedRig>& poses, RigFacts* facts) {
-  const JointMap& map = facts->map;
-  int right_way = 0, wrong_way = 0;
-  for (const PosedRig& pose : poses) {
-    const Vec3 forward = FootDirection(rig, pose, map.left) + FootDirection(rig, pose, map.right);
-    const Vec3 across = pose.position[map.left.hip] - pose.position[map.right.hip];
-    const double left = UpAxis(*facts).cross(forward).dot(across);
-    if (left > 0) ++right_way;
-    if (left < 0) ++wrong_way;
+JointMap FindJoints(const RigMotion& motion, const std::string& file, RigFacts* facts) {
+  const Rig& rig = motion.rig;
+  const auto [match, rival] = MatchBestProfile(rig);
+  if (match.complete()) {
+    if (rival) RefuseTie(rig, match.map, rival->map, file);
+    facts->confidence = match.share;
+    for (const std::string& bone : match.ignored) {
+      facts->notes.push_back("'" + Printable(bone) + "' hangs where no human has it: left out");
+    }
+    if (match.figures > 1) {
+      facts->notes.push_back(fmt::format(
+          "the file holds {} figures with the same names: the first one is read", match.figures));
+    }
+    return match.map;
   }
-  if (wrong_way > 4 * right_way) {
-    facts->notes.push_back("left and right look exchanged: the file may be mirrored");
+  ShapeMatch shape = MatchShape(rig, SamplePoses(motion));
+  if (shape.map) {
+    facts->confidence = 0;
+    facts->notes.push_back(
+        "the joint names follow no known convention: joints were told by shape alone");
+    return *shape.map;
   }
+  constexpr int kFewest = 9;  // joints: a root and four limbs of two
+  if (rig.num_joints() < kFewest) {
+    RefuseFigure(file, fmt::format("it has {} joint{}, a human at least {}", rig.num_joints(),
+                                   rig.num_joints() == 1 ? "" : "s", kFewest));
+  }
+  if (!shape.refusal.empty()) RefuseFigure(file, shape.refusal);
+  if (!match.missing.empty()) RefuseFigure(file, MissingJoints(rig, match));
+  RefuseFigure(file, fmt::format("its names follow '{}', but {}", match.map.profile,
+                                 Printable(match.misplaced.front())));
 }
 
 }  // namespace
@@ -110,15 +113,14 @@ RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
   if (motion.frames.empty() || motion.rig.joints.empty()) {
     throw InputError(file_name + ": no frames of any joint, expected a motion");
   }
-  const std::vector<PosedRig> poses = SamplePoses(motion);
   RigFacts facts;
-  facts.map = FindJoints(motion, poses, file_name, &facts.notes);
-  FindUnit(RigStature(motion, poses, facts.map), options, file_name, &facts);
-  FindUp(poses, options, file_name, &facts);
-  NoteUnequalSides(poses, &facts);
-  NoteMirroring(motion.rig, poses, &facts);
-  facts.t_pose_frames = TPoseFrames(motion, facts);
-  NoteTPose(motion, &facts);
+  facts.map = options.map ? *options.map : FindJoints(motion, file_name, &facts);
+  const Figure figure(motion, facts.map);
+  FindUnit(FigureHeight(figure), options, file_name, &facts);
+  FindUp(figure, options, file_name, &facts);
+  CheckFigure(figure, &facts);
+  facts.t_pose_frames = TPoseFrames(motion, figure.points, UpAxis(facts));
+  NoteTPose(motion, figure.points, &facts);
   return facts;
 }
 

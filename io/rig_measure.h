@@ -1,29 +1,32 @@
-// Lengths of a rig over some poses of its motion. Inner part of io/recognise.h.
+// Lengths and directions of a figure over some poses of its motion. Inner part of io/recognise.h.
 #pragma once
 
 #include <vector>
 
 #include "model/rig.h"
+#include "model/rig_points.h"
 
 namespace retarget {
 
-// Poses evenly over the motion, first and last frame included: what lengths and axes are measured
-// in. At least one frame.
-std::vector<PosedRig> SamplePoses(const RigMotion& motion);
+// A mapped rig with the poses that it is measured in.
+struct Figure {
+  Figure(const RigMotion& motion, const JointMap& joint_map);
 
-// The joint at the body's neck node: the first neck bone, else the head.
-int NeckNode(const JointMap& map);
+  const Rig* rig;  // of the motion
+  JointMap map;
+  std::vector<PosedRig> poses;
+  RigPoints points;
+};
 
-Vec3 MidAnkle(const PosedRig& pose, const JointMap& map);
+Vec3 MidAnkle(const PosedRig& pose, const RigPoints& points);
 
-// Distance of two joints (file units): the median over the poses, since position channels may
-// stretch bones.
-double MedianDistance(const std::vector<PosedRig>& poses, int a, int b);
-
-// The same as ChestBone(motion, map) of io/recognise.h.
-int ChestBone(const std::vector<PosedRig>& poses, const JointMap& map);
+// The pose that stands most upright: neck and ankles farthest apart.
+const PosedRig& StandingPose(const Figure& figure);
 
 // Ground to vertex of the straightened figure, in file units.
-double RigStature(const RigMotion& motion, const std::vector<PosedRig>& poses, const JointMap& map);
+double FigureHeight(const Figure& figure);
+
+// Where both feet point, by toe joints or the ends of the ankles; zero where neither is there.
+Vec3 FeetDirection(const PosedRig& pose, const RigPoints& points);
 
 }  // namespace retarget

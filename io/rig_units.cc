@@ -8,8 +8,6 @@
 #include <optional>
 #include <system_error>
 
-#include "io/rig_measure.h"
-
 namespace retarget {
 namespace {
 
@@ -78,16 +76,16 @@ void FindUnit(double height, const RecogniseOptions& options, const std::string&
   }
 }
 
-void FindUp(const std::vector<PosedRig>& poses, const RecogniseOptions& options,
-            const std::string& file, RigFacts* facts) {
+void FindUp(const Figure& figure, const RecogniseOptions& options, const std::string& file,
+            RigFacts* facts) {
   if (options.up && *options.up != 'y' && *options.up != 'z') {
     throw InputError(file + ": the up axis must be y or z");
   }
   Vec3 sum = Vec3::Zero();
-  for (const PosedRig& pose : poses) {
-    sum += pose.position[NeckNode(facts->map)] - MidAnkle(pose, facts->map);
+  for (const PosedRig& pose : figure.poses) {
+    sum += At(pose, figure.points.neck) - MidAnkle(pose, figure.points);
   }
-  const Vec3 mean = sum / static_cast<double>(poses.size());
+  const Vec3 mean = sum / static_cast<double>(figure.poses.size());
   facts->up = options.up.value_or(mean.y() >= mean.z() ? 'y' : 'z');
   const double along = facts->up == 'y' ? mean.y() : mean.z();
   if (along < 0.7 * mean.norm()) {

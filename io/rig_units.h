@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "io/recognise.h"
+#include "io/rig_measure.h"
 #include "model/rig.h"
 
 namespace retarget {
@@ -16,9 +16,9 @@ void FindUnit(double height, const RecogniseOptions& options, const std::string&
               RigFacts* facts);
 
 // Fills the up axis: of the options, else the one of y and z along which the figure stands.
-// `facts` has the map. Notes what is odd; throws InputError on options that are no axis.
-void FindUp(const std::vector<PosedRig>& poses, const RecogniseOptions& options,
-            const std::string& file, RigFacts* facts);
+// Notes what is odd; throws InputError on options that are no axis.
+void FindUp(const Figure& figure, const RecogniseOptions& options, const std::string& file,
+            RigFacts* facts);
 
 Vec3 UpAxis(const RigFacts& facts);
 

@@ -4,17 +4,18 @@
 #include <vector>
 
 #include "model/rig.h"
+#include "model/rig_points.h"
 
 namespace retarget {
 
 // Frames from the first one on. A clip that is nothing but a T-pose has no calibration to skip,
 // unless it is a single frame, which the caller will want to know. Resampling tools blend the
 // T-pose into the motion: a rough one counts if the figure leaves it in a leap.
-// `facts` has map and up axis.
-std::vector<int> TPoseFrames(const RigMotion& motion, const RigFacts& facts);
+std::vector<int> TPoseFrames(const RigMotion& motion, const RigPoints& points, const Vec3& up);
 
 // Says where the motion begins: after the T-pose and the few hasty frames that a resampling tool
-// made to lead away from it. `facts` has the frames of the T-pose.
-void NoteTPose(const RigMotion& motion, RigFacts* facts);
+// made to lead away from it, those included in which its filter overshoots and swings back.
+// `facts` has the frames of the T-pose.
+void NoteTPose(const RigMotion& motion, const RigPoints& points, RigFacts* facts);
 
 }  // namespace retarget

@@ -75,6 +75,9 @@ struct RigFacts {
   char up = 'y';                   // 'y' or 'z'
   double stature = 0;              // m
   std::vector<int> t_pose_frames;  // at the start of the clip
+  double confidence = 1;           // 0 to 1: how far names and shape agree with the map
+  std::vector<std::string> virtual_joints;  // the project's joints that no bone plays
+  double facing = 0;  // rad about up from the file's +z (up y) or -y (up z), standing
   std::vector<std::string> notes;  // warnings for the user, one line each
 };
 

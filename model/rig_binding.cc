@@ -27,115 +27,7 @@ Vec3 Median(const std::vector<Vec3>& points) {
   return out;
 }
 
-int CommonAncestor(const Rig& rig, int i, int j) {
-  while (i != j) {
-    int& later = i > j ? i : j;
-    later = rig.joints[later].parent;
-    if (later < 0) return -1;
-  }
-  return i;
-}
-
-void Require(int joint, const char* part) {
-  if (joint < 0) throw InputError(std::string("the rig has no ") + part);
-}
-
 }  // namespace
-
-RigBinding::LinkBinding RigBinding::Limb(const Rig& rig, int bone, int to,
-                                         const Vec3& direction) const {
-  LinkBinding link;
-  link.bone = link.from = bone;
-  link.to = to;
-  link.direction = direction;
-  if (to >= 0) return link;
-  const RigJoint& joint = rig.joints[bone];
-  if (joint.end_site) link.end = *joint.end_site;
-  if (link.end.norm() > 0) return link;
-  for (const int child : rig.ChildrenOf(bone)) {
-    if (rig.joints[child].offset.norm() > 0) {
-      link.to = child;
-      break;
-    }
-    // A child at the same place (a hand under a wrist): its own children or end point serve.
-    if (rig.joints[child].end_site && rig.joints[child].end_site->norm() > 0) {
-      link.end = *rig.joints[child].end_site;
-      break;
-    }
-  }
-  return link;
-}
-
-void RigBinding::MapLinks(const Rig& rig, const JointMap& map, int chest_bone) {
-  Require(map.root, "root");
-  Require(map.head, "head");
-  Require(chest_bone, "spine");
-  if (map.neck.empty()) throw InputError("the rig has no neck");
-  link_.resize(kNumLinks);
-  const int pelvis = CommonAncestor(rig, map.left.hip, map.right.hip);
-  const bool pelvis_below_root = pelvis > map.root;
-  link_[kRoot].bone = pelvis_below_root ? pelvis : map.root;
-  link_[kRoot].from = map.root;
-
-  for (const int bone : map.spine) {
-    if (bone == chest_bone) break;
-    spine_group_.push_back(bone);
-  }
-  LinkBinding& waist = link_[kWaist];
-  waist.bone = spine_group_.empty() ? map.root : spine_group_[spine_group_.size() / 2];
-  waist.from = map.root;
-  waist.to = chest_bone;
-  LinkBinding& chest = link_[kChest];
-  chest.bone = chest.from = chest_bone;
-  chest.to = map.neck.front();
-  LinkBinding& neck = link_[kNeck];
-  neck.bone = neck.from = map.neck.front();
-  neck.to = map.head;
-  LinkBinding& head = link_[kHead];
-  head.bone = head.from = map.head;
-  head.to = map.head_top;
-  if (head.to < 0 && rig.joints[map.head].end_site) head.end = *rig.joints[map.head].end_site;
-
-  for (const double x : {1.0, -1.0}) {
-    const JointMap::Side& side = x > 0 ? map.left : map.right;
-    for (const auto& [joint, part] : {std::pair{side.shoulder, "shoulder"},
-                                      {side.elbow, "elbow"},
-                                      {side.wrist, "wrist"},
-                                      {side.hip, "hip"},
-                                      {side.knee, "knee"},
-                                      {side.ankle, "ankle"}}) {
-      Require(joint, part);
-    }
-    const int arm = x > 0 ? kLeftClavicle : kRightClavicle;
-    const Vec3 out(x, 0, 0), down(0, -1, 0);
-    LinkBinding& clavicle = link_[arm];
-    clavicle.bone = side.clavicle >= 0 ? side.clavicle : chest_bone;
-    clavicle.from = side.clavicle >= 0 ? side.clavicle : map.neck.front();
-    clavicle.to = side.shoulder;
-    clavicle.direction = out;
-    link_[arm + 1] = Limb(rig, side.shoulder, side.elbow, out);
-    link_[arm + 2] = Limb(rig, side.elbow, side.wrist, out);
-    link_[arm + 3] = Limb(rig, side.wrist, side.hand, out);
-    const int leg = x > 0 ? kLeftHip : kRightHip;
-    link_[leg] = Limb(rig, side.hip, side.knee, down);
-    link_[leg + 1] = Limb(rig, side.knee, side.ankle, down);
-    link_[leg + 2] = Limb(rig, side.ankle, side.toe, Vec3(0, 0, 1));
-  }
-
-  link_of_bone_.assign(rig.joints.size(), -1);
-  link_of_bone_[map.root] = kRoot;
-  for (const int bone : spine_group_) link_of_bone_[bone] = kWaist;
-  bool past_chest = false;
-  for (const int bone : map.spine) {
-    past_chest = past_chest || bone == chest_bone;
-    if (past_chest) link_of_bone_[bone] = kChest;
-  }
-  for (const int bone : map.neck) link_of_bone_[bone] = kNeck;
-  for (int l = kHead; l < kNumLinks; ++l) {
-    const bool virtual_clavicle = link_[l].bone == chest_bone;
-    if (!virtual_clavicle) link_of_bone_[link_[l].bone] = l;
-  }
-}
 
 RigBinding::World RigBinding::ToWorld(const RigFrame& frame) const {
   const PosedRig posed = PoseRig(rig_, frame);
@@ -147,20 +39,31 @@ RigBinding::World RigBinding::ToWorld(const RigFrame& frame) const {
   return world;
 }
 
+Vec3 RigBinding::PointIn(const World& world, const RigPoint& point) const {
+  return world.position[point.joint] + scale_ * (world.rotation[point.joint] * point.offset);
+}
+
 // Where a link points in a frame (unit, world) and how long it is (m); false where the rig does not
 // say.
 bool RigBinding::Direction(const World& world, const LinkBinding& link, Vec3* direction,
                            double* length) const {
-  Vec3 along;
-  if (link.to >= 0) {
-    along = world.position[link.to] - world.position[link.from];
-  } else {
-    along = scale_ * (world.rotation[link.bone] * link.end);
-  }
+  if (!link.to.known()) return false;
+  const Vec3 along = PointIn(world, link.to) - PointIn(world, link.from);
   *length = along.norm();
   if (*length < 1e-4) return false;
   *direction = along / *length;
   return true;
+}
+
+// The figure's horizontal left: from hip to hip, else from another pair of joints.
+Vec3 RigBinding::LeftOf(const World& world) const {
+  const JointMap::Side &l = map_.left, &r = map_.right;
+  for (const auto& [a, b] : {std::pair{l.hip, r.hip}, {l.shoulder, r.shoulder}, {l.knee, r.knee}}) {
+    Vec3 left = world.position[a] - world.position[b];
+    left.y() = 0;
+    if (left.norm() > 0.01) return left.normalized();
+  }
+  return Vec3::UnitX();
 }
 
 // Small for a figure that stands upright with straight legs and arms held to its sides, down or
@@ -171,7 +74,7 @@ double RigBinding::StandingScore(const World& world) const {
   const auto away = [&](int link, const Vec3& from) {
     return Direction(world, link_[link], &d, &length) ? 1 - d.dot(from) : 1;
   };
-  const Vec3 left = (world.position[map_.left.hip] - world.position[map_.right.hip]).normalized();
+  const Vec3 left = LeftOf(world);
   for (const int l : {kLeftHip, kLeftKnee, kRightHip, kRightKnee})
     score += 3 * away(l, -Vec3::UnitY());
   for (const int l : {kWaist, kChest}) score += 3 * away(l, Vec3::UnitY());
@@ -210,8 +113,7 @@ RigBinding::World RigBinding::ReferenceFrame(const RigMotion& motion) const {
 void RigBinding::BindTurns(const World& reference) {
   std::vector<Quat> link_rotation(kNumLinks);
   const Vec3 up = Vec3::UnitY();
-  Vec3 left = reference.position[map_.left.hip] - reference.position[map_.right.hip];
-  left = (left - left.dot(up) * up).normalized();
+  const Vec3 left = LeftOf(reference);
   Mat3 root;
   root << left, up, left.cross(up);
   link_rotation[kRoot] = Quat(root);
@@ -261,7 +163,7 @@ BodyMeasures RigBinding::Measure(const std::vector<World>& frames) const {
       hip[s].push_back(rotation[kRoot].conjugate() *
                        (world.position[side.hip] - world.position[map_.root]));
       clavicle[s].push_back(rotation[kChest].conjugate() *
-                            (world.position[link_[arm].from] - world.position[link_[kChest].from]));
+                            (PointIn(world, link_[arm].from) - PointIn(world, points_.chest)));
     }
   }
   const auto known = [&](int l) { return length[l].empty() ? 0.0 : Median(length[l]); };
@@ -332,8 +234,9 @@ void RigBinding::LimitWaist(const std::vector<World>& frames) {
     first.push_back(rotation[kRoot].conjugate() * (world.position[spine_group_.front()] - root));
     double length = 0;
     for (size_t k = 0; k < spine_group_.size(); ++k) {
-      const int next = k + 1 < spine_group_.size() ? spine_group_[k + 1] : link_[kChest].from;
-      length += (world.position[next] - world.position[spine_group_[k]]).norm();
+      const Vec3 next = k + 1 < spine_group_.size() ? world.position[spine_group_[k + 1]]
+                                                    : PointIn(world, points_.chest);
+      length += (next - world.position[spine_group_[k]]).norm();
     }
     reach.push_back(length);
   }
@@ -351,9 +254,12 @@ void RigBinding::LimitWaist(const std::vector<World>& frames) {
 
 RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest_bone,
                        double stature)
-    : rig_(motion.rig), map_(facts.map), scale_(facts.metres_per_unit) {
+    : rig_(motion.rig), map_(facts.map), chest_bone_(chest_bone), scale_(facts.metres_per_unit) {
   if (facts.up == 'z') up_ = Quat(Eigen::AngleAxisd(-kPi / 2, Vec3::UnitX()));
-  MapLinks(rig_, map_, chest_bone);
+  const std::vector<PosedRig> samples = SamplePoses(motion);
+  points_ = FindPoints(rig_, samples, map_, chest_bone_);
+  MapLinks();
+  FindTwistHelpers(samples.front());
   body_ = StandardBody(AverageMeasures(1.75));  // its tree is all that binding needs
   BindTurns(ReferenceFrame(motion));
   std::vector<World> frames;
@@ -363,10 +269,7 @@ RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest
   body_ = StandardBody(measures);
   EstimateHinges(frames);
   LimitWaist(frames);
-  body_.links[kWaist].locked = spine_group_.empty();
-  for (const int arm : {kLeftClavicle, kRightClavicle}) {
-    body_.links[arm].locked = link_[arm].bone == chest_bone;
-  }
+  for (int l = 0; l < kNumLinks; ++l) body_.links[l].locked = locked_[l];
   if (stature > 0) {
     ratio_ = stature / body_.stature;
     scale_ *= ratio_;
@@ -375,10 +278,10 @@ RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest
   joint_at_node_.assign(body_.nodes.size(), -1);
   joint_at_node_[0] = map_.root;
   for (int n = 1; n < body_.num_nodes(); ++n) {
-    const LinkBinding& link = link_[body_.nodes[n].link];
-    joint_at_node_[n] = body_.nodes[n].link == kRoot
-                            ? (body_.nodes[n].name == "left_hip" ? map_.left.hip : map_.right.hip)
-                            : link.to;
+    const RigPoint& at = body_.nodes[n].link != kRoot        ? link_[body_.nodes[n].link].to
+                         : body_.nodes[n].name == "left_hip" ? points_.left.hip
+                                                             : points_.right.hip;
+    if (at.is_joint()) joint_at_node_[n] = at.joint;
   }
 }
 

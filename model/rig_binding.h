@@ -6,15 +6,22 @@
 // its canonical bone direction onto the rig's; that fixes a constant turn between bone and link. In
 // every other frame the link follows its bone. Equal link rotations are then equal postures on any
 // rig, whatever its axes and zero pose.
+//
+// A link that the rig has no bone for stands at a tabulated place on the bone above and is locked
+// (Link::locked). So it is with a spine of one bone: the body bends where the rig's trunk bends, at
+// the chest if the bone stands there, else at the waist, and the other of the two is locked. Were
+// the bone's turn shared among them, the solved neck could not be reached by the rig.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/body.h"
 #include "model/pose.h"
 #include "model/rig.h"
+#include "model/rig_points.h"
 
 namespace retarget {
 
@@ -23,9 +30,9 @@ inline constexpr double kSpineSlack = 0.0015;
 
 class RigBinding {
  public:
-  // `chest_bone` is the rig joint at the chest node (io/recognise.h). With `stature` (m, 0: the
-  // rig's own) the motion is shown on a body of that height, everything scaled alike.
-  // Throws InputError where a part that the body needs is missing.
+  // `chest_bone` is the rig joint at the chest node (io/recognise.h), -1 where none stands there.
+  // With `stature` (m, 0: the rig's own) the motion is shown on a body of that height, everything
+  // scaled alike. Throws InputError where a part that the body needs is missing.
   RigBinding(const RigMotion& motion, const RigFacts& facts, int chest_bone, double stature);
 
   const Body& body() const { return body_; }
@@ -46,14 +53,19 @@ class RigBinding {
   int JointAtNode(int node) const { return joint_at_node_[static_cast<size_t>(node)]; }
 
  private:
-  // How a link reads the rig: it follows `bone` and points from joint `from` to `to`.
+  // How a link reads the rig: it follows `bone` and points from `from` to `to`.
   struct LinkBinding {
     int bone = -1;
-    int from = -1;
-    int to = -1;              // -1: to the end point below
-    Vec3 end = Vec3::Zero();  // in to's place: a point in bone's frame (file units); zero: none
+    RigPoint from, to;
     Vec3 direction = Vec3::UnitY();  // canonical, in the link
     Quat turn = Quat::Identity();    // link = bone * turn
+  };
+  // A leaf bone on the axis of `bone`, between it and `child`, that takes a share of the child's
+  // turn about that axis. Helpers may hang from one another; parents come first.
+  struct TwistHelper {
+    int joint = -1, bone = -1, child = -1;
+    Vec3 axis = Vec3::UnitY();  // unit, in bone's frame
+    double share = 0;           // of the turn, beyond its parent's
   };
   // A rig frame in the world: metres, Y up.
   struct World {
@@ -61,13 +73,21 @@ class RigBinding {
     std::vector<Vec3> position;
   };
 
-  void MapLinks(const Rig& rig, const JointMap& map, int chest_bone);
-  LinkBinding Limb(const Rig& rig, int bone, int to, const Vec3& direction) const;
+  void MapLinks();
+  void MapTrunk();
+  void MapSide(const JointMap::Side& side, const RigPoints::Side& points, double x);
+  // The link from one joint to the next, and the bone that it drives.
+  void MapLimb(int link, int joint, const RigPoint& from, const RigPoint& to,
+               const Vec3& direction);
+  void FindTwistHelpers(const PosedRig& pose);
+  void TurnTwistHelpers(const RigFrame& captured, RigFrame* out) const;
+  Vec3 PointIn(const World& world, const RigPoint& point) const;
   World ToWorld(const RigFrame& frame) const;
   bool Direction(const World& world, const LinkBinding& link, Vec3* direction,
                  double* length) const;
   void BindTurns(const World& reference);
   World ReferenceFrame(const RigMotion& motion) const;
+  Vec3 LeftOf(const World& world) const;
   double StandingScore(const World& world) const;
   BodyMeasures Measure(const std::vector<World>& frames) const;
   std::vector<Quat> LinkRotations(const World& world) const;
@@ -78,6 +98,8 @@ class RigBinding {
 
   Rig rig_;
   JointMap map_;
+  RigPoints points_;
+  int chest_bone_ = -1;
   Quat up_ = Quat::Identity();  // file axes to world axes
   double scale_ = 0.01;         // metres per file unit, of the body as requested
   double ratio_ = 1;
@@ -86,6 +108,8 @@ class RigBinding {
   std::vector<int> link_of_bone_;  // by rig joint; -1: keeps its local motion
   std::vector<int> spine_group_;   // bones between root and chest
   std::vector<int> joint_at_node_;
+  std::vector<char> locked_;  // by link
+  std::vector<TwistHelper> twist_helpers_;
 };
 
 }  // namespace retarget

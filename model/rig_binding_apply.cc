@@ -50,7 +50,7 @@ void RigBinding::SpreadOverSpine(const World& captured, const std::vector<Quat>&
                                  const Vec3& root_position, std::vector<Quat>* rotation) const {
   const Vec3& root = captured.position[map_.root];
   const Vec3& first = captured.position[spine_group_.front()];
-  const Vec3& chest = captured.position[link_[kChest].from];
+  const Vec3 chest = PointIn(captured, points_.chest);
   const Vec3 pivot = root_position + edit[kRoot] * (first - root);
   const Vec3 target = root_position + edit[kWaist] * (chest - root);
   Vec3 reached = edit[kWaist] * (chest - first);  // from the pivot
@@ -102,6 +102,7 @@ RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
     out.rotation[j] = (above.conjugate() * rotation[j]).normalized();
     out.translation[j] = ratio_ * captured.translation[j];
   }
+  TurnTwistHelpers(captured, &out);
   // The root goes where it was solved to, moved by the joint that the file moves.
   int mover = map_.root;
   while (!rig_.joints[mover].translates && rig_.joints[mover].parent >= 0) {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "io/map_file.h"
 #include "tools/files.h"
 
 namespace retarget {
@@ -15,14 +18,24 @@ Clip LoadedClip::Resampled(double fps, int first, int last) const {
   return clip;
 }
 
-LoadedClip RecogniseClip(const ClipOptions& options) {
+namespace {
+
+LoadedClip ReadClip(const ClipOptions& options) {
   LoadedClip clip;
   clip.options = options;
   const std::string bytes = ReadFile(options.path);
   clip.hash = HashOf(bytes);
   clip.file = ParseBvh(bytes, options.path);
-  RigMotion& motion = clip.file.motion;
+  return clip;
+}
+
+// What the options and the map file say, the options first.
+RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const Rig& rig) {
   RecogniseOptions recognise;
+  if (!options.map.empty()) {
+    MapFile file = ReadMap(options.map, rig);
+    recognise = {file.metres_per_unit, file.up, std::move(file.map)};
+  }
   if (!options.units.empty()) {
     recognise.metres_per_unit = ParseUnits(options.units);
     if (!recognise.metres_per_unit) {
@@ -31,7 +44,25 @@ LoadedClip RecogniseClip(const ClipOptions& options) {
     }
   }
   if (!options.up.empty()) recognise.up = options.up[0];
-  clip.facts = Recognise(motion, recognise, options.path);
+  return recognise;
+}
+
+}  // namespace
+
+std::string MapOfClip(const ClipOptions& options) {
+  const RigMotion motion = ReadClip(options).file.motion;
+  const RecogniseOptions recognise = RecogniseOptionsOf(options, motion.rig);
+  try {
+    return FormatMap(motion, Recognise(motion, recognise, options.path));
+  } catch (const InputError& refusal) {
+    return FormatMapDraft(motion, refusal.what());
+  }
+}
+
+LoadedClip RecogniseClip(const ClipOptions& options) {
+  LoadedClip clip = ReadClip(options);
+  RigMotion& motion = clip.file.motion;
+  clip.facts = Recognise(motion, RecogniseOptionsOf(options, motion.rig), options.path);
   clip.facts.notes.insert(clip.facts.notes.begin(), clip.file.warnings.begin(),
                           clip.file.warnings.end());
   if (options.skip_frames >= motion.num_frames()) {

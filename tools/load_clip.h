@@ -18,6 +18,7 @@ struct ClipOptions {
   double stature = 0;   // m, 0: the clip's own
   std::string units;    // as given, empty: guess
   std::string up;       // "y", "z", empty: guess
+  std::string map;      // path of a joint map, empty: guess
   int skip_frames = 0;  // dropped from the beginning
 };
 
@@ -39,5 +40,7 @@ struct LoadedClip {
 LoadedClip LoadClip(const ClipOptions& options);
 // Reads and recognises only.
 LoadedClip RecogniseClip(const ClipOptions& options);
+// The clip's joint map as a file to edit: a draft where the figure is refused.
+std::string MapOfClip(const ClipOptions& options);
 
 }  // namespace retarget

@@ -11,7 +11,11 @@
 
 namespace retarget {
 
-int RunMap(const ClipOptions& options, bool json) {
+int RunMap(const ClipOptions& options, bool json, bool yaml) {
+  if (yaml) {
+    fmt::print("{}", MapOfClip(options));
+    return kDone;
+  }
   const LoadedClip clip = RecogniseClip(options);
   fmt::print("{}",
              json ? MapJson(clip.facts, clip.file.motion) : MapTable(clip.facts, clip.file.motion));
@@ -38,6 +42,8 @@ void AddClipOptions(CLI::App* app, ClipOptions* clip, const std::string& figure,
   app->add_option("--up" + suffix, clip->up, "up axis (default: from the motion)")
       ->check(CLI::IsMember({"y", "z"}))
       ->group(group);
+  app->add_option("--map" + suffix, clip->map, "joint map (YAML; see `retarget map --yaml`)")
+      ->group(group);
   app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
@@ -56,7 +62,7 @@ struct CommandLine {
   ClipOptions map_clip;
   std::string folder, file, config, check, picture;
   std::vector<std::string> set, clips, folders;
-  bool json = false, force = false;
+  bool json = false, yaml = false, force = false;
   int code = 0;
 
   void Build(CLI::App* app) {
@@ -123,8 +129,9 @@ struct CommandLine {
     CLI::App* map = app->add_subcommand("map", "what is recognised in a clip");
     map->add_option("file", map_clip.path, "clip (BVH)")->required();
     AddClipOptions(map, &map_clip, "", false);
-    map->add_flag("--json", json);
-    map->callback([this] { code = RunMap(map_clip, json); });
+    CLI::Option* as_json = map->add_flag("--json", json);
+    map->add_flag("--yaml", yaml, "print the map as a file to edit")->excludes(as_json);
+    map->callback([this] { code = RunMap(map_clip, json, yaml); });
 
     CLI::App* settings =
         app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");

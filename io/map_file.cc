@@ -1,0 +1,169 @@
+// Reading; map_write.cc writes.
+#include "io/map_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+#include <vector>
+
+#include "io/map_joints.h"
+#include "io/nearest_name.h"
+#include "io/recognise.h"
+#include "io/yaml_message.h"
+#include "io/yaml_reader.h"
+#include "model/rig_tree.h"
+
+namespace retarget {
+namespace {
+
+constexpr size_t kNearestShown = 3;
+
+class MapReader {
+ public:
+  explicit MapReader(const Rig& rig) : rig_(rig), joint_of_(rig.joints.size(), nullptr) {}
+
+  JointMap Read(const YamlValue& joints) {
+    std::vector<std::string> known = {"root", "spine", "neck", "head", "head_top"};
+    for (const char* side : {"left_", "right_"}) {
+      for (const SidePart& part : kSideParts) known.push_back(std::string(side) + part.name);
+    }
+    CheckKeys(joints, known);
+    JointMap map;
+    map.profile = "by hand";
+    map.root = ReadJoint(joints, "root", true, -1);
+    map.spine = ReadChain(joints, "spine", map.root);
+    const int trunk = map.spine.empty() ? map.root : map.spine.back();
+    map.neck = ReadChain(joints, "neck", trunk);
+    const int neck = map.neck.empty() ? trunk : map.neck.back();
+    map.head = ReadJoint(joints, "head", false, neck);
+    map.head_top = ReadJoint(joints, "head_top", false, map.head >= 0 ? map.head : neck);
+    map.left = ReadSide(joints, "left_", map.root);
+    map.right = ReadSide(joints, "right_", map.root);
+    return map;
+  }
+
+ private:
+  JointMap::Side ReadSide(const YamlValue& joints, const std::string& prefix, int root) {
+    JointMap::Side side;
+    int above = root;
+    for (const SidePart& part : kSideParts) {
+      if (part.joint == &JointMap::Side::hip) above = root;
+      int& joint = side.*part.joint;
+      joint = ReadJoint(joints, prefix + part.name, part.required, above);
+      if (joint >= 0) above = joint;
+    }
+    // Ends of a limb whose last joint is missing would hang from the wrong one.
+    if (side.wrist < 0) side.hand = -1;
+    if (side.ankle < 0) side.toe = -1;
+    return side;
+  }
+
+  int ReadJoint(const YamlValue& joints, const std::string& name, bool required, int above) {
+    const YamlValue* value = joints.Find(name);
+    if (value == nullptr) {
+      if (required) Require(joints, name);
+      return -1;
+    }
+    if (value->kind == YamlValue::Kind::kScalar && value->text == "none") {
+      if (required) Refuse(*value, "expected a bone, found none: this joint cannot be virtual");
+      return -1;
+    }
+    return ReadBone(*value, above);
+  }
+
+  std::vector<int> ReadChain(const YamlValue& joints, const std::string& name, int above) {
+    std::vector<int> chain;
+    const YamlValue* value = joints.Find(name);
+    if (value == nullptr) return chain;
+    if (value->kind != YamlValue::Kind::kList) {
+      const int bone = ReadJoint(joints, name, false, above);
+      if (bone >= 0) chain.push_back(bone);
+      return chain;
+    }
+    for (const YamlValue& item : value->children) {
+      chain.push_back(ReadBone(item, above));
+      above = chain.back();
+    }
+    return chain;
+  }
+
+  // A bone by name, or by "#12", its place in the file from 0; it must hang from `above`.
+  int ReadBone(const YamlValue& value, int above) {
+    if (value.kind != YamlValue::Kind::kScalar) RefuseExpecting(value, "the name of a bone");
+    const int bone = value.text.starts_with("#") ? NumberedBone(value) : NamedBone(value);
+    const auto b = static_cast<size_t>(bone);
+    if (joint_of_[b] != nullptr) {
+      Refuse(value, fmt::format("{} plays {} already", ShownText(value.text), joint_of_[b]->path));
+    }
+    joint_of_[b] = &value;
+    if (above >= 0 && (bone == above || !DescendsFrom(rig_, bone, above))) {
+      Refuse(value, fmt::format("{} does not hang from {}", ShownText(value.text),
+                                ShownText(rig_.joints[static_cast<size_t>(above)].name)));
+    }
+    return bone;
+  }
+
+  int NumberedBone(const YamlValue& value) const {
+    int number = -1;
+    const char* end = value.text.data() + value.text.size();
+    const auto [stop, error] = std::from_chars(value.text.data() + 1, end, number);
+    if (error != std::errc() || stop != end || number < 0 || number >= rig_.num_joints()) {
+      Refuse(value, fmt::format("expected #0 to #{}, found {}", rig_.num_joints() - 1,
+                                ShownText(value.text)));
+    }
+    return number;
+  }
+
+  int NamedBone(const YamlValue& value) const {
+    const int bone = rig_.Find(value.text);
+    if (bone < 0) Refuse(value, "no bone " + ShownText(value.text) + Nearest(value.text));
+    for (int j = bone + 1; j < rig_.num_joints(); ++j) {
+      if (rig_.joints[static_cast<size_t>(j)].name != value.text) continue;
+      Refuse(value, fmt::format("several bones are called {}: give \"#{}\" or \"#{}\"",
+                                ShownText(value.text), bone, j));
+    }
+    return bone;
+  }
+
+  std::string Nearest(const std::string& name) const {
+    std::vector<std::pair<size_t, std::string>> ranked;
+    for (const RigJoint& joint : rig_.joints) {
+      ranked.emplace_back(EditDistance(name, joint.name), joint.name);
+    }
+    std::sort(ranked.begin(), ranked.end());
+    std::string out;
+    for (size_t n = 0; n < std::min(kNearestShown, ranked.size()); ++n) {
+      out += (n == 0 ? ", the nearest names are " : ", ") + ShownText(ranked[n].second);
+    }
+    return out;
+  }
+
+  const Rig& rig_;
+  std::vector<const YamlValue*> joint_of_;  // by bone
+};
+
+}  // namespace
+
+MapFile ParseMap(const std::string& text, const std::string& name, const Rig& rig) {
+  const YamlValue document = ParseYaml(text, name);
+  CheckKeys(document, {"format", "units", "up", "joints"});
+  ReadInteger(Require(document, "format"), 1, 1);
+  MapFile file;
+  if (const YamlValue* units = document.Find("units")) {
+    file.metres_per_unit = ParseUnits(ReadText(*units));
+    if (!file.metres_per_unit) RefuseExpecting(*units, "cm, m, mm, in, cmu or metres per unit");
+  }
+  if (const YamlValue* up = document.Find("up")) {
+    file.up = ReadName(*up, "axis", {"y", "z"}) == 0 ? 'y' : 'z';
+  }
+  file.map = MapReader(rig).Read(Require(document, "joints"));
+  return file;
+}
+
+MapFile ReadMap(const std::string& path, const Rig& rig) {
+  return ParseMap(ReadTextFile(path, "a joint map"), path, rig);
+}
+
+}  // namespace retarget
