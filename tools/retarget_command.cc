@@ -103,8 +103,11 @@ int RunRetarget(const RetargetOptions& options) {
                       rig[f].error_m <= kWriteBackLimit, ""});
   }
   const bool all_met = AllMet(checks);
-  const std::vector<Conflict> conflicts = FindConflicts(
-      Problem(result.scene, settings), result.solve.unknowns, subject, metrics, checks);
+  std::vector<Conflict> conflicts;
+  if (!all_met) {
+    conflicts = FindConflicts(Problem(result.scene, settings), result.solve.unknowns, subject,
+                              metrics, checks);
+  }
   const int exit_code = ExitCodeOf(result.solve.status, all_met);
 
   // Report and write.
