@@ -28,8 +28,8 @@ constexpr size_t kMaxJointFrames = 20'000'000;
 
 class MotionReader {
  public:
-  MotionReader(std::string_view text, const std::string& name, Skeleton* skeleton)
-      : lines_(text, name), skeleton_(*skeleton) {
+  MotionReader(std::string_view text, const std::string& name, const Skeleton& skeleton)
+      : lines_(text, name), skeleton_(skeleton) {
     for (const AcclaimBone& bone : skeleton_.bones) values_.emplace_back(bone.dofs.size(), 0.0);
     seen_in_.assign(values_.size(), -1);
     file_.degrees = skeleton_.degrees;
@@ -183,7 +183,7 @@ AcclaimFile ParseAcclaim(std::string_view asf_text, const std::string& asf_name,
     throw InputError(amc_name + ": the frame rate must be a positive number of frames per second");
   }
   Skeleton skeleton = acclaim::ReadSkeleton(asf_text, asf_name);
-  MotionReader reader(amc_text, amc_name, &skeleton);
+  MotionReader reader(amc_text, amc_name, skeleton);
   AcclaimFile file = reader.Read();
   file.motion.rig = std::move(skeleton.rig);
   file.motion.frame_time = 1 / fps;

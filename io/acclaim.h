@@ -51,11 +51,10 @@ AcclaimFile ParseAcclaim(std::string_view asf_text, const std::string& asf_name,
                          double fps = kAcclaimFps);
 
 // A motion file for the skeleton of `original`: same header, bones, order of values, angle unit and
-// line ends; frames count on from the original's first. Where a bone has too few degrees of freedom
-// for its rotation, it gets the part that they can hold, and its children start from there: every
-// bone comes as near to its orientation in the world as its own freedom allows. Angles are
-// continuous from frame to frame, as in FormatBvh. `scale` is that of FormatAsf; frames are written
-// as given.
+// line ends; frames count on from the original's first. Angles are continuous from frame to frame,
+// as in FormatBvh. What bones have too few degrees of freedom for is lost; the others then make
+// good what they can, so that the joints come nearest to where the motion has them. `scale` is that
+// of FormatAsf; frames are written as given.
 std::string FormatAmc(const AcclaimFile& original, const RigMotion& motion, double scale = 1.0);
 
 // The skeleton's text with its lengths multiplied by `scale`; with 1 its very bytes.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
-#include <numeric>
 
 #include "io/acclaim_text.h"
 #include "io/bvh_text.h"
@@ -19,25 +17,20 @@ namespace {
 
 using bvh::SameWord;
 
-// Bounds that no real file reaches, so that a damaged one cannot ask for all memory.
-constexpr size_t kMaxBones = 4096;
-constexpr int kMaxDepth = 256;
+// A bound that no real file reaches, so that a damaged one cannot ask for all memory.
+constexpr size_t kMaxBones = 1024;
 
 constexpr std::array<std::string_view, 6> kDofNames = {"tx", "ty", "tz", "rx", "ry", "rz"};
 constexpr const char* kBoneKeys =
     "id, name, direction, length, axis, bodymass, cofmass, dof, limits or end";
 
-// A bone as its block states it; the root is the first.
-struct RawBone {
-  std::string name;
-  Vec3 direction = Vec3::Zero();
-  double length = 0;
-  Vec3 axis_angles = Vec3::Zero();  // file's angle unit
-  std::array<int, 3> axis_order = {0, 1, 2};
-  std::vector<int> dofs;
-  int parent = -1;
-  std::vector<int> children;
-};
+// -1 for a word that is no degree of freedom.
+int DofKind(std::string_view word) {
+  for (size_t k = 0; k < kDofNames.size(); ++k) {
+    if (SameWord(word, kDofNames[k])) return static_cast<int>(k);
+  }
+  return -1;
+}
 
 // "XYZ": axis 0 first.
 bool ParseOrder(std::string_view word, std::array<int, 3>* order) {
@@ -78,7 +71,7 @@ class SkeletonReader {
     }
     if (bones_.size() < 2) lines_.Fail("no bones", "a :bonedata section");
     if (!has_order_) lines_.Fail("no order of the root's values", "a :root section with order");
-    Assemble();
+    Assemble(bones_, lines_, &out_);
     return std::move(out_);
   }
 
@@ -108,7 +101,7 @@ class SkeletonReader {
 
   bool ReadRoot() {
     if (has_order_) lines_.Fail("a second :root", "one");
-    RawBone& root = bones_[0];
+    BoneBlock& root = bones_[0];
     bool more;
     while (NextInSection(&more)) {
       const std::string_view key = lines_.key();
@@ -144,7 +137,7 @@ class SkeletonReader {
   }
 
   void ReadBone() {
-    RawBone bone;
+    BoneBlock bone;
     bool has_direction = false, has_length = false, in_limits = false;
     while (true) {
       if (!lines_.Next()) lines_.Fail("the end of the file", kBoneKeys);
@@ -214,7 +207,7 @@ class SkeletonReader {
     const auto it = out_.joint_of_name.find(LowerCase(word));
     if (it != out_.joint_of_name.end()) return it->second;
     std::vector<std::string> names;
-    for (const RawBone& bone : bones_) names.push_back(Printable(bone.name));
+    for (const BoneBlock& bone : bones_) names.push_back(Printable(bone.name));
     lines_.FailAtWord(word, "a bone of :bonedata" + Suggestion(word, names));
   }
 
@@ -241,56 +234,8 @@ class SkeletonReader {
     out_.length_numbers.emplace_back(begin, begin + word.size());
   }
 
-  // Lays the bones out from the root, parents before children.
-  void Assemble() {
-    std::vector<int> joint_of_bone(bones_.size(), -1);
-    std::vector<std::pair<int, int>> open = {{0, 0}};  // bone and its depth
-    while (!open.empty()) {
-      const auto [b, depth] = open.back();
-      open.pop_back();
-      const RawBone& bone = bones_[b];
-      if (depth > kMaxDepth) {
-        lines_.Fail("bones nested too deeply", fmt::format("at most {} levels", kMaxDepth));
-      }
-      joint_of_bone[b] = out_.rig.num_joints();
-      AddJoint(bone, bone.parent < 0 ? -1 : joint_of_bone[bone.parent]);
-      for (size_t k = bone.children.size(); k-- > 0;) {
-        open.emplace_back(bone.children[k], depth + 1);
-      }
-    }
-    for (size_t b = 0; b < bones_.size(); ++b) {
-      if (joint_of_bone[b] < 0) {
-        lines_.Fail("bone " + bvh::Quoted(bones_[b].name) + " apart from the root",
-                    "it in :hierarchy");
-      }
-      out_.joint_of_name[LowerCase(bones_[b].name)] = joint_of_bone[b];
-    }
-  }
-
-  void AddJoint(const RawBone& bone, int parent) {
-    RigJoint joint;
-    joint.name = bone.name;
-    joint.parent = parent;
-    if (bone.parent < 0) {
-      joint.offset = bone.direction;
-    } else if (bone.parent > 0) {
-      joint.offset = bones_[bone.parent].length * bones_[bone.parent].direction;
-    }
-    if (bone.children.empty() && parent >= 0) joint.end_site = bone.length * bone.direction;
-    const auto moves = [](int kind) { return kind < kFirstRotationDof; };
-    joint.translates = std::ranges::count_if(bone.dofs, moves) == 3;
-    out_.rig.joints.push_back(std::move(joint));
-    AcclaimBone acclaim;
-    acclaim.dofs = bone.dofs;
-    for (const int axis : bone.axis_order) {
-      const double angle = bone.axis_angles[axis] * (out_.degrees ? kDegree : 1);
-      acclaim.axes = AxisTurn(axis, angle) * acclaim.axes;
-    }
-    out_.bones.push_back(std::move(acclaim));
-  }
-
   LineReader lines_;
-  std::vector<RawBone> bones_;  // the root first; its direction is its position
+  std::vector<BoneBlock> bones_;  // the root first; its direction is its position
   bool has_order_ = false;
   Skeleton out_;
 };
@@ -301,13 +246,6 @@ std::string LowerCase(std::string_view word) {
   std::string out(word);
   for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return out;
-}
-
-int DofKind(std::string_view word) {
-  for (size_t k = 0; k < kDofNames.size(); ++k) {
-    if (SameWord(word, kDofNames[k])) return static_cast<int>(k);
-  }
-  return -1;
 }
 
 Skeleton ReadSkeleton(std::string_view text, const std::string& name) {

@@ -1,6 +1,7 @@
 // The skeleton (ASF) of an Acclaim motion. Inner part of io/acclaim.h.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "io/acclaim.h"
+#include "io/acclaim_text.h"
 
 namespace retarget::acclaim {
 
@@ -21,10 +23,23 @@ struct Skeleton {
   std::vector<std::pair<size_t, size_t>> length_numbers;  // begin and end of each in the text
 };
 
-std::string LowerCase(std::string_view word);
+// A bone as its block states it. Block 0 is the root, whose direction is its position.
+struct BoneBlock {
+  std::string name;
+  Vec3 direction = Vec3::Zero();
+  double length = 0;
+  Vec3 axis_angles = Vec3::Zero();  // file's angle unit
+  std::array<int, 3> axis_order = {0, 1, 2};
+  std::vector<int> dofs;
+  int parent = -1;
+  std::vector<int> children;
+};
 
-// -1 for a word that is no degree of freedom.
-int DofKind(std::string_view word);
+// Lays the bones out from the root (the first), parents before children, and fills the rig, the
+// bones and the joints of the names. `lines` is where messages point to.
+void Assemble(const std::vector<BoneBlock>& blocks, const LineReader& lines, Skeleton* skeleton);
+
+std::string LowerCase(std::string_view word);
 
 Skeleton ReadSkeleton(std::string_view text, const std::string& name);
 
