@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/gltf_clip.h"
-#include "io/gltf_skeleton.h"
+#include "io/gltf_node.h"
 
 namespace retarget {
 namespace {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "io/gltf_character.h"
 #include "io/gltf_clip.h"
 #include "io/gltf_skeleton.h"
 #include "io/gltf_tracks.h"

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
-#include "io/printable.h"
+#include "io/gltf_node.h"
 
 namespace retarget {
 namespace {
@@ -28,11 +27,6 @@ Matrix4d MatrixOf(const GltfTransform& t) {
   m.topLeftCorner<3, 3>() = t.rotation.toRotationMatrix() * t.scale.asDiagonal();
   m.topRightCorner<3, 1>() = t.translation;
   return m;
-}
-
-std::string Label(const std::string& name, const char* kind, int index) {
-  return name.empty() ? fmt::format("{} {}", kind, index)
-                      : fmt::format("{} {} \"{}\"", kind, index, Printable(name));
 }
 
 class SkeletonBuilder {
@@ -204,10 +198,13 @@ class SkeletonBuilder {
       if (!(axes.col(c).norm() > 1e-9)) return own;
       axes.col(c).normalize();
     }
+    constexpr double kSquare = 0.01;
+    const double skew = (axes.transpose() * axes - Mat3::Identity()).cwiseAbs().maxCoeff();
+    if (!(skew < kSquare) || axes.determinant() < 0) return own;
     GltfTransform bound = own;
     bound.translation = local.topRightCorner<3, 1>();
     bound.rotation = Quat(axes).normalized();
-    if (!bound.translation.allFinite() || !bound.rotation.coeffs().allFinite()) return own;
+    if (!bound.translation.allFinite()) return own;
     const bool same = bound.rotation.angularDistance(own.rotation) < kTurned &&
                       (bound.translation - own.translation).norm() <=
                           kMoved * std::max(own.translation.norm(), bound.translation.norm());
@@ -257,149 +254,7 @@ class SkeletonBuilder {
   int uneven_scales_ = 0, animated_scales_ = 0;
 };
 
-// The character of each skin, as the index of its first skin. Skins that share a joint are of one
-// character, and so is a skin whose joints hang below another's.
-std::vector<int> GroupSkins(const LoadedGltf& gltf, const std::string& name) {
-  const tinygltf::Model& model = gltf.model;
-  std::vector<int> group(model.skins.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto merge = [&](int a, int b) {
-    const int from = std::max(group[a], group[b]), to = std::min(group[a], group[b]);
-    if (from != to) std::replace(group.begin(), group.end(), from, to);
-  };
-  std::vector<int> skin_of_node(model.nodes.size(), -1), top(model.nodes.size(), -1);
-  for (const int n : gltf.order) top[n] = gltf.parent[n] < 0 ? n : top[gltf.parent[n]];
-  for (size_t s = 0; s < model.skins.size(); ++s) {
-    const std::vector<int>& joints = model.skins[s].joints;
-    for (const int joint : joints) {
-      if (skin_of_node[joint] >= 0) merge(skin_of_node[joint], static_cast<int>(s));
-      skin_of_node[joint] = static_cast<int>(s);
-      if (top[joint] != top[joints[0]]) {
-        throw InputError(fmt::format("{}: skins[{}]: its joints have no common root", name, s));
-      }
-    }
-  }
-  for (const int n : gltf.order) {
-    if (gltf.parent[n] < 0 || skin_of_node[gltf.parent[n]] < 0) continue;
-    if (skin_of_node[n] >= 0) merge(skin_of_node[n], skin_of_node[gltf.parent[n]]);
-    skin_of_node[n] = skin_of_node[gltf.parent[n]];
-  }
-  return group;
-}
-
 }  // namespace
-
-GltfTransform TransformOf(const tinygltf::Model& model, int n, const std::string& name) {
-  const tinygltf::Node& node = model.nodes[n];
-  const auto fail = [&](const char* what) {
-    throw InputError(fmt::format("{}: nodes[{}]: {}", name, n, what));
-  };
-  GltfTransform out;
-  if (node.matrix.empty()) {
-    if (!node.translation.empty()) out.translation = Vec3::Map(node.translation.data());
-    if (!node.scale.empty()) out.scale = Vec3::Map(node.scale.data());
-    if (!node.rotation.empty()) {
-      const double* q = node.rotation.data();
-      out.rotation = Quat(q[3], q[0], q[1], q[2]);
-      constexpr double kOffUnit = 0.00769;  // as Khronos' validator
-      if (!(std::abs(out.rotation.norm() - 1) <= kOffUnit)) fail("rotation is no unit quaternion");
-      out.rotation.normalize();
-    }
-    return out;
-  }
-  const Eigen::Map<const Matrix4d> matrix(node.matrix.data());  // column-major, as glTF
-  Mat3 axes = matrix.topLeftCorner<3, 3>();
-  for (int c = 0; c < 3; ++c) {
-    out.scale[c] = axes.col(c).norm();
-    if (!(out.scale[c] > 1e-12)) fail("its matrix is singular");
-    axes.col(c) /= out.scale[c];
-  }
-  constexpr double kSquare = 1e-3;
-  if ((axes.transpose() * axes - Mat3::Identity()).cwiseAbs().maxCoeff() > kSquare) {
-    fail("its matrix shears: no translation, rotation and scale say the same");
-  }
-  if (axes.determinant() < 0) {  // a mirror is a rotation and a negative scale
-    axes.col(0) *= -1;
-    out.scale[0] *= -1;
-  }
-  out.translation = matrix.topRightCorner<3, 1>();
-  out.rotation = Quat(axes).normalized();
-  return out;
-}
-
-std::vector<Matrix4d> InverseBindMatrices(const tinygltf::Model& model, int skin,
-                                          GltfAccessors* accessors, const std::string& name) {
-  const tinygltf::Skin& s = model.skins[skin];
-  std::vector<Matrix4d> out;
-  if (s.inverseBindMatrices < 0) {
-    out.assign(s.joints.size(), Matrix4d::Identity());
-    return out;
-  }
-  if (accessors->Count(s.inverseBindMatrices) < s.joints.size()) {
-    throw InputError(fmt::format("{}: skins[{}]: {} inverse bind matrices for {} joints", name,
-                                 skin, accessors->Count(s.inverseBindMatrices), s.joints.size()));
-  }
-  const std::vector<double> numbers = accessors->Read(s.inverseBindMatrices, TINYGLTF_TYPE_MAT4);
-  for (size_t j = 0; j < s.joints.size(); ++j) {
-    Matrix4d m = Eigen::Map<const Matrix4d>(&numbers[16 * j]);
-    const Eigen::RowVector4d last_row(0, 0, 0, 1);
-    constexpr double kRounding = 1e-4;
-    if ((m.row(3) - last_row).cwiseAbs().maxCoeff() > kRounding) {
-      throw InputError(
-          fmt::format("{}: skins[{}]: inverse bind matrix {} has another last row than 0 0 0 1",
-                      name, skin, j));
-    }
-    m.row(3) = last_row;
-    out.push_back(m);
-  }
-  return out;
-}
-
-std::vector<int> CharacterSkins(const LoadedGltf& gltf, const std::string& select,
-                                const std::vector<int>& humanoid, const std::string& name) {
-  const std::vector<tinygltf::Skin>& skins = gltf.model.skins;
-  const std::vector<int> group = GroupSkins(gltf, name);
-  int wanted = -1;
-  std::string list;
-  std::set<int> groups(group.begin(), group.end());
-  for (size_t s = 0; s < skins.size(); ++s) {
-    list += (s > 0 ? ", " : "") + Label(skins[s].name, "skin", static_cast<int>(s));
-    if (s == 11 && skins.size() > 12) {
-      list += ", ...";
-      break;
-    }
-  }
-  if (!select.empty()) {
-    for (size_t s = 0; s < skins.size() && wanted < 0; ++s) {
-      if (skins[s].name == select) wanted = group[s];
-    }
-    for (size_t s = 0; s < skins.size() && wanted < 0; ++s) {
-      if (std::to_string(s) == select) wanted = group[s];
-    }
-    if (wanted < 0) {
-      throw InputError(
-          fmt::format("{}: no skin \"{}\", expected {}", name, Printable(select),
-                      skins.empty() ? "none: the file has no skin" : "one of " + list));
-    }
-  } else if (groups.size() == 1) {
-    wanted = *groups.begin();
-  } else if (groups.size() > 1) {
-    for (size_t s = 0; s < skins.size() && wanted < 0; ++s) {
-      for (const int joint : skins[s].joints) {
-        if (std::find(humanoid.begin(), humanoid.end(), joint) != humanoid.end()) wanted = group[s];
-      }
-    }
-    if (wanted < 0) {
-      throw InputError(
-          fmt::format("{}: {} characters, select one by its skin: {}", name, groups.size(), list));
-    }
-  }
-  std::vector<int> out;
-  for (size_t s = 0; s < skins.size(); ++s) {
-    if (wanted >= 0 && group[s] == wanted) out.push_back(static_cast<int>(s));
-  }
-  return out;
-}
 
 void BuildSkeleton(const LoadedGltf& gltf, const std::vector<int>& skins,
                    const std::vector<int>& humanoid, const GltfTracks& tracks,

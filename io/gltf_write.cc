@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -114,6 +115,9 @@ class AnimationWriter {
     text += fmt::format("\"componentType\":5126,\"count\":{},\"type\":\"{}\"",
                         numbers.size() / components, kTypes[components]);
     for (const double number : numbers) {
+      if (!(std::abs(number) <= std::numeric_limits<float>::max())) {
+        throw InputError("the motion holds a number that float32 cannot hold");
+      }
       const float value = static_cast<float>(number);
       std::uint32_t bits;
       std::memcpy(&bits, &value, sizeof bits);

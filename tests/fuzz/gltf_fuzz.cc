@@ -74,10 +74,30 @@ void TakeApart(const std::string& bytes) {
   }
 }
 
+// A container whose lengths agree again after bytes were inserted or lost: else few mutants would
+// be read any further than their header.
+std::string Repaired(std::string bytes) {
+  constexpr size_t kJsonAt = 20;
+  if (bytes.size() < kJsonAt + 8 || bytes.substr(0, 4) != "glTF") return bytes;
+  const auto set = [&](size_t at, size_t word) {
+    for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(word >> (8 * i) & 0xFF);
+  };
+  bytes.resize(bytes.size() / 4 * 4);
+  const size_t marker = bytes.find(std::string("BIN\0", 4), kJsonAt);
+  const bool has_data = marker != std::string::npos && marker % 4 == 0 && marker >= kJsonAt + 4;
+  set(8, bytes.size());
+  set(12, (has_data ? marker - 4 : bytes.size()) - kJsonAt);
+  if (has_data) set(marker - 4, bytes.size() - marker - 4);
+  return bytes;
+}
+
 }  // namespace
 }  // namespace retarget
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
-  retarget::TakeApart(std::string(reinterpret_cast<const char*>(data), size));
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  retarget::TakeApart(bytes);
+  const std::string repaired = retarget::Repaired(bytes);
+  if (repaired != bytes) retarget::TakeApart(repaired);
   return 0;
 }

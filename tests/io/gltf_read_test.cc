@@ -566,6 +566,40 @@ TEST(GltfVrm, Vrm0SaysItInAListAndFacesBackwards) {
   CheckVrmBinding(clip);
 }
 
+// A rig whose bones have axes of their own, and a motion that never stands: only its rest pose, a
+// T-pose, tells which way its bones go.
+TEST(GltfVrm, BindsByTheRestPoseWhereNoFrameStands) {
+  GltfMaker maker = VrmFigure(false);
+  auto& bones = maker.document["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"];
+  for (const char* bone : kVrmBones) bones[bone]["node"] = NodeOfBone(bone);
+  const GltfOracle straight(maker.Glb());
+  std::mt19937 random(23);
+  std::vector<Quat> axes = {Quat::Identity()};
+  for (size_t n = 1; n < straight.parent.size(); ++n) {
+    axes.push_back(SomeRotation(&random, 2));
+    const Quat& above = axes[static_cast<size_t>(straight.parent[n])];
+    auto& node = maker.document["nodes"][n];
+    const auto offset = node["translation"].get<std::vector<double>>();
+    const Vec3 t = above.conjugate() * Vec3::Map(offset.data());
+    const Quat q = above.conjugate() * axes[n];
+    node["translation"] = {t.x(), t.y(), t.z()};
+    node["rotation"] = {q.x(), q.y(), q.z(), q.w()};
+  }
+  const GltfClip clip = ParseGltf(maker.Glb(), "a.vrm", "");
+  RigMotion tumbling = clip.motion;
+  for (Quat& q : tumbling.frames[0].rotation) q = q * SomeRotation(&random);
+  RigFacts facts;
+  facts.map = *clip.map;
+  facts.metres_per_unit = 1;
+  const RigBinding binding(tumbling, facts, ChestBone(tumbling, facts.map), 0);
+  const Pose pose = binding.PoseOf(clip.motion.frames[0]);
+  for (const std::string link :
+       {"left_shoulder", "right_elbow", "left_hip", "left_knee", "chest", "waist"}) {
+    const Quat& q = pose.rotation[static_cast<size_t>(binding.body().FindLink(link))];
+    EXPECT_LT(q.angularDistance(Quat::Identity()), 1e-6) << link;
+  }
+}
+
 TEST(GltfVrm, VrmaBringsTheMotionOfABareSkeleton) {
   GltfMaker maker = VrmFigure(false);
   auto& bones = maker.document["extensions"]["VRMC_vrm_animation"]["humanoid"]["humanBones"];
