@@ -38,6 +38,16 @@ AcclaimBone BoneOf(const BoneBlock& block, bool degrees) {
   return bone;
 }
 
+// A bone with fewer than three turns; the last one is leftmost in the product.
+void LimitTurns(const AcclaimBone& bone, RigJoint* joint) {
+  for (auto dof = bone.dofs.rbegin(); dof != bone.dofs.rend(); ++dof) {
+    if (*dof < kFirstRotationDof) continue;
+    joint->turn_axes.push_back(bone.axes * Vec3::Unit(*dof - kFirstRotationDof));
+  }
+  joint->turns_freely = joint->turn_axes.size() == 3;
+  if (joint->turns_freely) joint->turn_axes.clear();
+}
+
 }  // namespace
 
 void Assemble(const std::vector<BoneBlock>& blocks, const LineReader& lines, Skeleton* skeleton) {
@@ -54,6 +64,7 @@ void Assemble(const std::vector<BoneBlock>& blocks, const LineReader& lines, Ske
     joint_of_block[static_cast<size_t>(b)] = skeleton->rig.num_joints();
     skeleton->rig.joints.push_back(JointOf(blocks, block, parent));
     skeleton->bones.push_back(BoneOf(block, skeleton->degrees));
+    LimitTurns(skeleton->bones.back(), &skeleton->rig.joints.back());
     for (size_t k = block.children.size(); k-- > 0;) {
       open.emplace_back(block.children[k], depth + 1);
     }

@@ -128,6 +128,20 @@ void ReadFrames(Cursor* cursor, double declared, BvhFile* file) {
   }
 }
 
+// Joints with fewer than three rotation channels.
+void LimitTurns(BvhFile* file) {
+  for (size_t j = 0; j < file->channels.size(); ++j) {
+    RigJoint& joint = file->motion.rig.joints[j];
+    for (const int kind : file->channels[j]) {
+      if (kind >= kFirstRotationChannel) {
+        joint.turn_axes.push_back(Vec3::Unit(kind - kFirstRotationChannel));
+      }
+    }
+    joint.turns_freely = joint.turn_axes.size() == 3;
+    if (joint.turns_freely) joint.turn_axes.clear();
+  }
+}
+
 void WarnOfDuplicateNames(BvhFile* file) {
   std::set<std::string_view> seen, told;
   for (const RigJoint& joint : file->motion.rig.joints) {
@@ -154,6 +168,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   file.hierarchy_text = std::string(text.substr(0, hierarchy.motion_begin));
   const size_t first_end = text.find('\n');
   file.crlf = first_end != std::string_view::npos && first_end > 0 && text[first_end - 1] == '\r';
+  LimitTurns(&file);
   const double declared = ReadFrameCount(&cursor);
   file.motion.frame_time = SnappedFrameTime(ReadFrameTime(&cursor, &file.frame_time_text));
   ReadFrames(&cursor, declared, &file);

@@ -126,10 +126,12 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
   for (const auto& [bone, node] : bones.node) humanoid.push_back(node);
 
   GltfAccessors accessors(model, clip.name);
-  const int animation = ChooseAnimation(model, select.animation, name);
+  // Of a bare skeleton the animation tells what the joints are, even where it is not played.
+  const bool any = select.at_rest && select.animation.empty() && !model.animations.empty();
+  const int animation = any ? 0 : ChooseAnimation(model, select.animation, name);
   GltfTracks tracks;
-  if (animation >= 0) {
-    clip.animation = model.animations[animation].name;
+  if (animation >= 0 && !(select.at_rest && !model.skins.empty())) {
+    if (!select.at_rest) clip.animation = model.animations[animation].name;
     tracks = ReadTracks(model.animations[animation], &accessors, clip.name, &clip.notes);
   }
   const std::vector<int> skins = CharacterSkins(gltf, select.skin, humanoid, name);
@@ -143,7 +145,7 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
                                            : ": no skin, and the animation moves no node"));
   }
   CheckFinite(clip);
-  SampleTracks(tracks, &clip);
+  SampleTracks(select.at_rest ? GltfTracks() : tracks, &clip);
   if (!bones.node.empty()) {
     std::vector<int> joint_of_node(model.nodes.size(), -1);
     for (size_t j = 0; j < clip.joints.size(); ++j) {

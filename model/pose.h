@@ -30,6 +30,13 @@ PosedBody PoseBody(const Body& body, const Pose& pose);
 // The same into existing storage, for inner loops.
 void PoseBody(const Body& body, const Pose& pose, PosedBody* out);
 
+// A turn that a link cannot make on the rig that it is for: `direction` is unit, in the link's own
+// frame at some pose.
+struct StiffTurn {
+  int link = 0;
+  Vec3 direction = Vec3::UnitX();
+};
+
 // A motion at a fixed rate: frame k is at time k / fps.
 struct Clip {
   double fps = 30;

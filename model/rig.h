@@ -17,6 +17,10 @@ struct RigJoint {
   std::optional<Vec3> end_site;  // a leaf's end point in its own frame (file units)
   bool translates = false;       // the file moves this joint (position channels on all axes)
   Quat rest_rotation = Quat::Identity();  // in the parent's frame; of a BVH always this
+  // A joint that the file can only turn about some axes (unit, in its own frame at rest): its
+  // rotation is the product of turns about them, the first leftmost. None: a rigid bone.
+  bool turns_freely = true;
+  std::vector<Vec3> turn_axes = {};
 };
 
 struct Rig {
@@ -71,13 +75,13 @@ struct JointMap {
 struct RigFacts {
   JointMap map;
   double metres_per_unit = 0.01;
-  std::string unit_name = "cm";    // "m", "cm", "in", "cmu", "mm" or the number
-  char up = 'y';                   // 'y' or 'z'
-  double stature = 0;              // m
-  std::vector<int> t_pose_frames;  // at the start of the clip
-  double confidence = 1;           // 0 to 1: how far names and shape agree with the map
+  std::string unit_name = "cm";             // "m", "cm", "in", "cmu", "mm" or the number
+  char up = 'y';                            // 'y' or 'z'
+  double stature = 0;                       // m
+  std::vector<int> t_pose_frames;           // at the start of the clip
+  double confidence = 1;                    // 0 to 1: how far names and shape agree with the map
   std::vector<std::string> virtual_joints;  // the project's joints that no bone plays
-  double facing = 0;  // rad about up from the file's +z (up y) or -y (up z), standing
+  double facing = 0;               // rad about up from the file's +z (up y) or -y (up z), standing
   std::vector<std::string> notes;  // warnings for the user, one line each
 };
 

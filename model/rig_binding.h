@@ -46,6 +46,10 @@ class RigBinding {
   // was turned, G_solved G_captured^-1; bones without a link keep their local motion.
   RigFrame Apply(const RigFrame& captured, const Pose& solved) const;
 
+  // The turns that the rig's joints cannot make from a frame, by links that one bone alone follows:
+  // a joint with one or two axes, as in Acclaim files, stays within them.
+  std::vector<StiffTurn> StiffTurnsOf(const RigFrame& frame) const;
+
   // World position (m, Y up) of every rig joint in a frame, for checks.
   std::vector<Vec3> JointPositions(const RigFrame& frame) const;
 

@@ -1,4 +1,5 @@
 // The way back: a posture of the body onto the bones of a rig.
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -115,6 +116,30 @@ RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
   const Quat turn = above < 0 ? Quat::Identity() : posed.rotation[above];
   out.translation[mover] += turn.conjugate() * (target - posed.position[map_.root]);
   return out;
+}
+
+std::vector<StiffTurn> RigBinding::StiffTurnsOf(const RigFrame& frame) const {
+  std::vector<StiffTurn> stiff;
+  for (int l = 1; l < body_.num_links(); ++l) {
+    const int bone = link_[l].bone;
+    const bool shared =
+        std::find(spine_group_.begin(), spine_group_.end(), bone) != spine_group_.end();
+    if (bone < 0 || shared || body_.links[l].locked || rig_.joints[bone].turns_freely) continue;
+    // R exp(w) = A_1 ... A_n exp(w): the last axis stays as it is, the one before it has been
+    // turned by the last, and so on; with two axes, A_2^T a_1 = R^T a_1.
+    const std::vector<Vec3>& axes = rig_.joints[bone].turn_axes;
+    std::vector<Vec3> free;
+    if (!axes.empty()) free.push_back(axes.back());
+    if (axes.size() == 2) free.push_back(frame.rotation[bone].conjugate() * axes[0]);
+    Eigen::Matrix<double, 3, Eigen::Dynamic> span(3, std::max<size_t>(free.size(), 1));
+    span.setZero();
+    for (size_t k = 0; k < free.size(); ++k) span.col(static_cast<long>(k)) = free[k];
+    const Eigen::JacobiSVD<MatX> svd(span, Eigen::ComputeFullU);
+    for (long k = static_cast<long>(free.size()); k < 3; ++k) {
+      stiff.push_back({l, link_[l].turn.conjugate() * Vec3(svd.matrixU().col(k))});
+    }
+  }
+  return stiff;
 }
 
 }  // namespace retarget

@@ -19,6 +19,7 @@ struct Weights {
   double ground = 100;
   double tangle = 20;
   double joint_limit = 10;
+  double rig_turn = 100;
 };
 
 // Shares of weights.pose_tracking and of weights.smoothness, by joint group.
@@ -122,6 +123,8 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("weights.tangle", w.tangle, "1/turn", "tagged tangles stay above one half", 0, kMax);
   visit("weights.joint_limit", w.joint_limit, "1/rad",
         "joints bend no further than the limit or the capture", 0, kMax);
+  visit("weights.rig_turn", w.rig_turn, "1/rad",
+        "joints turn only as the clip's own rig can, where that has fewer axes", 0, kMax);
   auto& j = s.joint_weights;
   visit("joint_weights.waist", j.waist, "", "share of pose_tracking and smoothness", 0, kMax);
   visit("joint_weights.chest", j.chest, "", "the same", 0, kMax);

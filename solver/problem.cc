@@ -10,6 +10,7 @@
 #include "solver/terms/hold.h"
 #include "solver/terms/joint_limit.h"
 #include "solver/terms/penetration.h"
+#include "solver/terms/rig_turn.h"
 #include "solver/terms/tangle.h"
 #include "solver/terms/tracking.h"
 
@@ -44,6 +45,7 @@ Problem::Problem(const Scene& scene, const Settings& settings)
   add(std::make_unique<Ground>(scene), w.ground);
   add(std::make_unique<TangleTerm>(scene), w.tangle);
   add(std::make_unique<JointLimitTerm>(), w.joint_limit);
+  add(std::make_unique<RigTurn>(), w.rig_turn);
 }
 
 double Problem::WeightOf(const Term& term) const {

@@ -19,6 +19,8 @@ struct RetargetInput {
   std::array<Clip, 2> clip;  // as captured (m, Y up), one rate and one number of frames
   TemplatePosture posture;
   int template_frame = 0;  // laid into the template
+  // Turns that the clips' own rigs cannot make, per frame; empty where they can make all.
+  std::array<std::vector<std::vector<StiffTurn>>, 2> stiff = {};
 };
 
 // Which initial guess the solve took (solve.start), and why.

@@ -28,6 +28,8 @@ struct Scene {
   std::vector<Hold> holds;
   std::array<RootLeader, 2> root = {RootLeader::kOwnClip, RootLeader::kOwnClip};
   std::array<std::vector<Contact>, 2> contacts;
+  // Turns that the figures' own rigs cannot make, per frame; empty where they can make all.
+  std::array<std::vector<std::vector<StiffTurn>>, 2> stiff;
 
   int num_frames() const { return source[0].num_frames(); }
   double fps() const { return source[0].fps; }

@@ -21,6 +21,8 @@ bool SameFile(const fs::path& a, const fs::path& b) {
 }
 
 void WriteTemporary(const fs::path& path, const std::string& bytes) {
+  std::error_code made;  // a file that a .gltf names may lie in a folder of its own
+  fs::create_directories(path.parent_path(), made);
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();

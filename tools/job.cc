@@ -39,6 +39,18 @@ Settings EffectiveSettings(const RetargetOptions& options) {
   return settings;
 }
 
+std::vector<std::string> InputPaths(const RetargetOptions& options) {
+  std::vector<std::string> paths = {options.template_path};
+  for (const ClipOptions& clip : options.clip) {
+    for (const std::string& text : {clip.path, clip.character}) {
+      const ClipPath path = ParseClipPath(text);
+      paths.push_back(path.path);
+      if (!path.skeleton.empty()) paths.push_back(path.skeleton);
+    }
+  }
+  return paths;
+}
+
 Job LoadJob(const RetargetOptions& options) {
   Job job;
   job.input.posture = ReadTemplate(options.template_path);
@@ -50,8 +62,9 @@ Job LoadJob(const RetargetOptions& options) {
   const int available = static_cast<int>(std::floor(common * options.fps + 1e-3)) + 1;
   job.frames = ParseFrames(options.frames, available);
   for (int f = 0; f < 2; ++f) {
-    job.input.body[f] = job.clip[f].binding->body();
+    job.input.body[f] = job.clip[f].body;
     job.input.clip[f] = job.clip[f].Resampled(options.fps, job.frames.first, job.frames.last);
+    job.input.stiff[f] = job.clip[f].StiffTurns(options.fps, job.frames.first, job.frames.last);
   }
   const double at = std::round(options.template_at * options.fps) - job.frames.first;
   if (at < 0 || at >= job.frames.last - job.frames.first) {
@@ -69,6 +82,10 @@ void TellNotes(const Job& job) {
     fmt::print(stderr, "clip {}: {}, profile {}, {} up {}, stature {:.2f} m\n", kFigure[f],
                job.clip[f].options.path, facts.map.profile, facts.unit_name, facts.up,
                job.input.body[f].stature);
+    if (!job.clip[f].options.character.empty()) {
+      fmt::print(stderr, "  on {}{}\n", job.clip[f].options.character,
+                 job.clip[f].skin_radii ? ", capsules as wide as its skin" : "");
+    }
     for (const std::string& note : facts.notes) fmt::print(stderr, "  note: {}\n", note);
   }
 }

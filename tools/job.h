@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "model/settings.h"
 #include "solver/retarget.h"
@@ -23,6 +24,9 @@ struct Job {
   RetargetInput input;
   FrameRange frames;
 };
+
+// The files that a run reads, none of which it may overwrite.
+std::vector<std::string> InputPaths(const RetargetOptions& options);
 
 Job LoadJob(const RetargetOptions& options);  // throws InputError
 // What was recognised in the clips, to stderr.

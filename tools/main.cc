@@ -42,12 +42,20 @@ void AddClipOptions(CLI::App* app, ClipOptions* clip, const std::string& figure,
   app->add_option("--up" + suffix, clip->up, "up axis (default: from the motion)")
       ->check(CLI::IsMember({"y", "z"}))
       ->group(group);
+  app->add_option("--amc-fps" + suffix, clip->amc_fps, "rate of an Acclaim motion (120)")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->group(group);
   app->add_option("--map" + suffix, clip->map, "joint map (YAML; see `retarget map --yaml`)")
       ->group(group);
   app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
   if (!solve) return;
+  app->add_option("--character" + suffix, clip->character,
+                  "put the motion on this character (glTF, VRM, BVH) and solve on its body")
+      ->group(group);
+  app->add_option("--character-map" + suffix, clip->character_map, "joint map of the character")
+      ->group(group);
   app->add_option("--start" + suffix, clip->start, "seconds into the clip")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
@@ -87,8 +95,10 @@ struct CommandLine {
   // The options that say which clips are to be tangled how.
   void AddScene(CLI::App* app) {
     RetargetOptions& o = retarget;
-    app->add_option("--clip-a", o.clip[0].path, "first clip (BVH)");
-    app->add_option("--clip-b", o.clip[1].path, "second clip (BVH)");
+    app->add_option(
+        "--clip-a", o.clip[0].path,
+        "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");
+    app->add_option("--clip-b", o.clip[1].path, "second clip");
     app->add_option("--template", o.template_path, "template posture (YAML)");
     app->add_option("--config", o.config_path,
                     "weights and settings (YAML; see `retarget config`)");
@@ -127,7 +137,8 @@ struct CommandLine {
     tangles->callback([this] { code = RunTangles(file, json); });
 
     CLI::App* map = app->add_subcommand("map", "what is recognised in a clip");
-    map->add_option("file", map_clip.path, "clip (BVH)")->required();
+    map->add_option("file", map_clip.path, "clip: BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
+        ->required();
     AddClipOptions(map, &map_clip, "", false);
     CLI::Option* as_json = map->add_flag("--json", json);
     map->add_flag("--yaml", yaml, "print the map as a file to edit")->excludes(as_json);

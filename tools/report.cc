@@ -90,7 +90,7 @@ MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body
   return view;
 }
 
-double WriteBackError(const RigMotion& written, double metres_per_unit, char up,
+double WriteBackError(const RigMotion& written, const Rig& rig, double metres_per_unit, char up,
                       const std::vector<NodeJoint>& joints, const MotionView& scene, int figure) {
   const Quat turn = up == 'z' ? Quat(Eigen::AngleAxisd(-kPi / 2, Vec3::UnitX())) : Quat::Identity();
   double worst = 0;
@@ -102,7 +102,9 @@ double WriteBackError(const RigMotion& written, double metres_per_unit, char up,
     scene.at(t, &sample);
     const PosedRig posed = PoseRig(written.rig, SampleRig(written, time));
     for (const NodeJoint& pair : joints) {
-      const Vec3 p = metres_per_unit * (turn * posed.position[pair.joint]);
+      const int joint = written.rig.Find(rig.joints[pair.joint].name);
+      if (joint < 0) return HUGE_VAL;  // the file has lost a joint
+      const Vec3 p = metres_per_unit * (turn * posed.position[joint]);
       worst = std::max(worst, (p - sample.node[figure][pair.node]).norm());
     }
   }

@@ -47,11 +47,11 @@ class MeasuredScene {
 };
 
 // Largest distance (m) between the joints of a written-back motion and the scene's nodes, over all
-// output frames. `joints` pairs nodes with rig joints.
+// output frames. `joints` pairs nodes with joints of `rig`, which are found in `written` by name.
 struct NodeJoint {
   int node, joint;
 };
-double WriteBackError(const RigMotion& written, double metres_per_unit, char up,
+double WriteBackError(const RigMotion& written, const Rig& rig, double metres_per_unit, char up,
                       const std::vector<NodeJoint>& joints, const MotionView& scene, int figure);
 inline constexpr double kWriteBackLimit = 0.005;  // m
 

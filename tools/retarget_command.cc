@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -48,14 +49,13 @@ WrittenRig WriteRig(const Job& job, const RetargetResult& result, int f, const M
       [&](const Pose& pose) { return Placed(pose, placement); }, result.scene.source[f],
       result.solved[f]);
   WrittenRig out;
-  out.bytes = FormatBvh(clip.file, motion, clip.binding->stature_ratio());
+  out.files = FormatClipFile(clip.file, motion, kFigure[f], clip.binding->stature_ratio());
   for (int n = 0; n < job.input.body[f].num_nodes(); ++n) {
     const int joint = clip.binding->JointAtNode(n);
     if (joint >= 0) out.joints.push_back({n, joint});
   }
-  const std::string name = std::string(kFigure[f]) + ".bvh";
-  out.error_m = WriteBackError(ParseBvh(out.bytes, name).motion, clip.facts.metres_per_unit,
-                               clip.facts.up, out.joints, scene, f);
+  out.error_m = WriteBackError(ReadBack(clip.file, out.files), clip.file.motion.rig,
+                               clip.facts.metres_per_unit, clip.facts.up, out.joints, scene, f);
   return out;
 }
 
@@ -71,15 +71,26 @@ void CatchInterrupts() {
   std::signal(SIGINT, [](int) { interrupted = 1; });
 }
 
+namespace {
+
+std::vector<std::string> OutputNames(const Job& job) {
+  std::vector<std::string> names = {"scene.glb",   "source.glb",  "baseline.glb",
+                                    "report.json", "report.html", "config.yaml"};
+  for (int f = 0; f < 2; ++f) {
+    for (const std::string& name : NamesOfClipFile(job.clip[f].file, kFigure[f])) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
 int RunRetarget(const RetargetOptions& options) {
   // Read, map onto the body, resample.
   const Settings settings = EffectiveSettings(options);
   const Job job = LoadJob(options);
-  OutputSet output(options.out,
-                   {"scene.glb", "source.glb", "baseline.glb", "a.bvh", "b.bvh", "report.json",
-                    "report.html", "config.yaml"},
-                   {options.clip[0].path, options.clip[1].path, options.template_path},
-                   options.force);
+  OutputSet output(options.out, OutputNames(job), InputPaths(options), options.force);
   TellNotes(job);
 
   // Fit the template, find tangles and contacts, place, start, solve.
@@ -117,7 +128,9 @@ int RunRetarget(const RetargetOptions& options) {
   output.Add("scene.glb", scene.bytes());
   output.Add("source.glb", source.bytes());
   output.Add("baseline.glb", baseline.bytes());
-  for (int f = 0; f < 2; ++f) output.Add(std::string(kFigure[f]) + ".bvh", rig[f].bytes);
+  for (const WrittenRig& written : rig) {
+    for (const NamedBytes& file : written.files) output.Add(file.name, file.bytes);
+  }
   output.Add("report.json", report.dump(1) + "\n");
   const Json series = SeriesJson(subject, source.series(), &baseline.series(), scene.series());
   output.Add("report.html",

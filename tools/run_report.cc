@@ -20,15 +20,23 @@ Json InputsJson(const RetargetOptions& options, const Job& job) {
   Json inputs;
   for (int f = 0; f < 2; ++f) {
     const LoadedClip& clip = job.clip[f];
-    inputs["clip_" + std::string(kFigure[f])] = {{"file", clip.options.path},
-                                                 {"hash", clip.hash},
-                                                 {"profile", clip.facts.map.profile},
-                                                 {"units", clip.facts.metres_per_unit},
-                                                 {"up", std::string(1, clip.facts.up)},
-                                                 {"start_s", clip.options.start},
-                                                 {"skip_frames", clip.options.skip_frames},
-                                                 {"t_pose_frames", clip.facts.t_pose_frames},
-                                                 {"notes", clip.facts.notes}};
+    Json& input = inputs["clip_" + std::string(kFigure[f])];
+    input = {{"file", clip.options.path},
+             {"hash", clip.motion_facts ? clip.motion_hash : clip.hash},
+             {"format", clip.file.format},
+             {"profile", clip.facts.map.profile},
+             {"units", clip.facts.metres_per_unit},
+             {"up", std::string(1, clip.facts.up)},
+             {"start_s", clip.options.start},
+             {"skip_frames", clip.options.skip_frames},
+             {"t_pose_frames", clip.facts.t_pose_frames},
+             {"notes", clip.facts.notes}};
+    if (!clip.options.map.empty()) input["map"] = clip.options.map;
+    if (clip.motion_facts) {
+      input["character"] = {{"file", clip.options.character},
+                            {"hash", clip.hash},
+                            {"motion_profile", clip.motion_facts->map.profile}};
+    }
   }
   inputs["template"] = {{"file", options.template_path},
                         {"hash", HashOf(ReadFile(options.template_path))},
@@ -90,10 +98,20 @@ Json PlacementJson(const Placement& p) {
 // Where the solved motion of one figure went, and what it was read from.
 Json WriteBackJson(const RunFacts& run, int f) {
   const RigFacts& facts = run.job.clip[f].facts;
-  Json written = {{"file", std::string(kFigure[f]) + ".bvh"},
+  const ClipFile& file = run.job.clip[f].file;
+  Json written = {{"file", run.rig[f].files[0].name},
+                  {"format", file.format},
                   {"units", facts.metres_per_unit},
                   {"up", std::string(1, facts.up)},
                   {"largest_error_m", run.rig[f].error_m}};
+  if (file.format == "Acclaim") {
+    written["skeleton"] = run.rig[f].files[1].name;
+    written["fps"] = 1 / file.motion.frame_time;
+  }
+  if (file.format == "glTF") {
+    written["animation"] = kAnimationName;
+    if (!file.select.skin.empty()) written["skin"] = file.select.skin;
+  }
   for (const NodeJoint& pair : run.rig[f].joints) {
     written["joints"][run.job.input.body[f].nodes[pair.node].name] =
         run.job.clip[f].file.motion.rig.joints[pair.joint].name;

@@ -12,7 +12,7 @@ namespace retarget {
 
 // A solved motion on the rig it came from.
 struct WrittenRig {
-  std::string bytes;
+  std::vector<NamedBytes> files;  // the motion first
   std::vector<NodeJoint> joints;
   double error_m = 0;  // against the scene
 };

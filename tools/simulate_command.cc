@@ -12,9 +12,7 @@ namespace retarget {
 int RunSimulate(const RetargetOptions& options) {
   const Settings settings = EffectiveSettings(options);
   const Job job = LoadJob(options);
-  OutputSet output(options.out, {"source.glb", "baseline.glb"},
-                   {options.clip[0].path, options.clip[1].path, options.template_path},
-                   options.force);
+  OutputSet output(options.out, {"source.glb", "baseline.glb"}, InputPaths(options), options.force);
   TellNotes(job);
   const RetargetResult prepared = Prepare(job.input, settings);
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "warning: {}\n", warning);

@@ -193,7 +193,7 @@ int RunTemplateFromClips(const FromClipsOptions& options) {
       throw InputError(fmt::format("--frame {}: {} has frames 0 to {}", options.frame,
                                    options.clip[f].path, motion.num_frames() - 1));
     }
-    posture.body[f] = clip.binding->body();
+    posture.body[f] = clip.body;
     posture.pose[f] = clip.binding->PoseOf(motion.frames[options.frame]);
     posture.supports[f] =
         StandingNodes(posture.body[f], PoseBody(posture.body[f], posture.pose[f]));

@@ -18,7 +18,6 @@ std::string Count(int64_t n, const std::string& one, const std::string& many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-
 std::string FileName(const Json& report, const std::string& pointer) {
   return fs::path(TextAt(report, pointer)).filename().string();
 }

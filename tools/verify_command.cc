@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "io/clip_file.h"
 #include "io/settings_file.h"
 #include "tools/commands.h"
 #include "tools/files.h"
@@ -16,7 +17,14 @@ namespace {
 RequirementCheck CheckWriteBack(const Json& written, const std::string& folder, int f,
                                 const MotionView& scene, const Body& body) {
   const std::string file = written.at("file");
-  const RigMotion motion = ReadBvh(folder + "/" + file).motion;
+  ClipPath path;
+  path.path = folder + "/" + file;
+  if (written.contains("skeleton")) {
+    path.skeleton = folder + "/" + written.at("skeleton").get<std::string>();
+  }
+  path.select.animation = written.value("animation", "");
+  path.select.skin = written.value("skin", "");
+  const RigMotion motion = ReadClipFile(path, written.value("fps", kAcclaimFps)).motion;
   std::vector<NodeJoint> joints;
   for (const auto& [node, bone] : written.at("joints").items()) {
     const int joint = motion.rig.Find(bone.get<std::string>());
@@ -25,7 +33,8 @@ RequirementCheck CheckWriteBack(const Json& written, const std::string& folder, 
     joints.push_back({body.FindNode(node), joint});
   }
   const std::string up = written.at("up");
-  const double error = WriteBackError(motion, written.at("units"), up[0], joints, scene, f);
+  const double error =
+      WriteBackError(motion, motion.rig, written.at("units"), up[0], joints, scene, f);
   return {std::string("write-back ") + (f == 0 ? "a" : "b"),
           error,
           kWriteBackLimit,

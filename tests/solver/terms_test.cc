@@ -97,7 +97,14 @@ Unknowns RandomEdit(const Scene& scene, double size, unsigned seed) {
 TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
   std::map<std::string, Checked> checked;
   for (const bool follow : {false, true}) {
-    const Scene scene = SmallScene(4, 0.2, follow);
+    Scene scene = SmallScene(4, 0.2, follow);
+    // An elbow that only bends, an ankle of two axes.
+    for (int f = 0; f < 2; ++f) {
+      const int elbow = scene.body[f].FindLink("left_elbow");
+      const int ankle = scene.body[f].FindLink("right_ankle");
+      scene.stiff[f].assign(
+          4, {{elbow, Vec3(0.6, 0.8, 0)}, {elbow, Vec3(0, 0, 1)}, {ankle, Vec3(1, 2, -2) / 3}});
+    }
     const Problem problem(scene, {});
     for (unsigned seed = 0; seed < 11; ++seed) {
       const Unknowns u = RandomEdit(scene, seed == 0 ? 0 : 0.25, seed);
@@ -109,14 +116,14 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
     }
   }
   for (const auto& term : {"pose_tracking", "root_tracking", "foot_lock", "hold", "penetration",
-                           "self_penetration", "ground", "tangle", "joint_limit"}) {
+                           "self_penetration", "ground", "tangle", "joint_limit", "rig_turn"}) {
     const Checked& c = checked[term];
     std::printf("%-17s %6d rows %8d entries %7d not zero %3d frames skipped\n", term, c.rows,
                 c.entries, c.nonzero, c.skipped);
     EXPECT_GT(c.rows, 20) << term;
     EXPECT_GT(c.nonzero, 60) << term;
   }
-  EXPECT_EQ(checked.size(), 9u);
+  EXPECT_EQ(checked.size(), 10u);
 }
 
 TEST(Terms, SmoothnessGradientAndStencilMatchTheCost) {

@@ -1,0 +1,274 @@
+#include "io/clip_file.h"
+
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/gltf_container.h"
+
+namespace retarget {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kInch = 0.0254;         // m
+constexpr double kCmuLengthUnit = 0.45;  // `:units length` of CMU: of an inch
+
+bool IsFile(const std::string& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+std::string ReadBytes(const std::string& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw InputError(path + ": is a folder, expected a file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path + ": cannot be opened");
+  std::stringstream bytes;
+  bytes << in.rdbuf();
+  return bytes.str();
+}
+
+enum class Format { kBvh, kGltf, kAsf, kAmc, kUnknown };
+
+// By the first word that is no comment.
+Format FormatOf(const std::string& bytes) {
+  if (bytes.rfind("glTF", 0) == 0) return Format::kGltf;
+  std::istringstream lines(bytes.substr(0, 65536));
+  std::string line;
+  while (std::getline(lines, line)) {
+    size_t at = 0;
+    if (line.rfind("\xEF\xBB\xBF", 0) == 0) at = 3;
+    at = line.find_first_not_of(" \t\r", at);
+    if (at == std::string::npos || line[at] == '#') continue;
+    if (line[at] == '{') return Format::kGltf;
+    std::string word;
+    while (at < line.size() && !std::isspace(static_cast<unsigned char>(line[at]))) {
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(line[at++])));
+    }
+    if (word == "hierarchy") return Format::kBvh;
+    if (word == ":fully-specified" || word == ":degrees" || word == ":radians") return Format::kAmc;
+    if (word[0] == ':') return Format::kAsf;
+    if (!word.empty() && std::isdigit(static_cast<unsigned char>(word[0]))) return Format::kAmc;
+    return Format::kUnknown;
+  }
+  return Format::kUnknown;
+}
+
+ClipFile FromBvh(std::string bytes, const std::string& path) {
+  ClipFile clip;
+  BvhFile file = ParseBvh(bytes, path);
+  clip.format = "BVH";
+  clip.motion = file.motion;
+  clip.notes = file.warnings;
+  clip.original = std::move(file);
+  clip.bytes = std::move(bytes);
+  return clip;
+}
+
+// An animation may go without a name.
+bool HasAnimation(const GltfClip& clip) {
+  return !clip.animation.empty() || clip.motion.num_frames() > 1 || !clip.key_times.empty();
+}
+
+ClipFile FromGltf(std::string bytes, const ClipPath& path) {
+  ClipFile clip;
+  clip.bytes = bytes;
+  GltfClip file = ParseGltf(
+      std::move(bytes), path.path,
+      fs::path(path.path).parent_path().empty() ? "." : fs::path(path.path).parent_path().string(),
+      path.select);
+  clip.format = "glTF";
+  clip.motion = file.motion;
+  clip.notes = file.notes;
+  clip.metres_per_unit = 1;
+  clip.up = 'y';
+  clip.map = file.map;
+  clip.select = path.select;
+  clip.has_motion = !path.select.at_rest && HasAnimation(file);
+  clip.original = std::move(file);
+  return clip;
+}
+
+ClipFile FromAcclaim(const std::string& asf, const std::string& amc, const ClipPath& path,
+                     double fps) {
+  ClipFile clip;
+  AcclaimFile file = ParseAcclaim(asf, path.skeleton, amc, path.path, fps);
+  clip.format = "Acclaim";
+  clip.motion = file.motion;
+  clip.notes = file.warnings;
+  if (std::abs(file.length_unit - kCmuLengthUnit) < 1e-9) {
+    clip.metres_per_unit = kInch / kCmuLengthUnit;
+  }
+  clip.original = std::move(file);
+  clip.bytes = asf + amc;
+  return clip;
+}
+
+void ParseSelection(const std::string& text, const std::string& selection, GltfSelect* select) {
+  std::istringstream parts(selection);
+  std::string part;
+  while (std::getline(parts, part, ',')) {
+    const size_t equals = part.find('=');
+    const std::string key = part.substr(0, equals);
+    if (equals == std::string::npos || (key != "animation" && key != "skin")) {
+      throw InputError(text + ": expected #animation=NAME,skin=NAME after the file, found " + part);
+    }
+    (key == "animation" ? select->animation : select->skin) = part.substr(equals + 1);
+  }
+}
+
+// Files beside a .gltf that it names by a relative path: buffers and images.
+std::vector<std::string> ExternalFiles(const GltfClip& clip) {
+  std::vector<std::string> files;
+  const nlohmann::json document =
+      nlohmann::json::parse(SplitGltf(clip.bytes, clip.name).json, nullptr, false);
+  for (const char* kind : {"buffers", "images"}) {
+    if (!document.is_object() || !document.contains(kind)) continue;
+    for (const auto& item : document.at(kind)) {
+      if (!item.is_object() || !item.contains("uri") || !item.at("uri").is_string()) continue;
+      const std::string uri = item.at("uri");
+      if (uri.rfind("data:", 0) == 0 || uri.find("://") != std::string::npos) continue;
+      const fs::path path = fs::path(uri).lexically_normal();
+      if (path.is_absolute() || path.begin()->string() == "..") continue;
+      if (IsFile(clip.folder + "/" + path.string())) files.push_back(path.string());
+    }
+  }
+  return files;
+}
+
+// Another size of the figure: glTF has no lengths to scale, so its roots get a scale.
+std::string FormatScaledGltf(const GltfClip& original, const RigMotion& motion, double ratio) {
+  if (ratio == 1) return FormatGltf(original, motion, 0, kAnimationName);
+  GltfClip scaled = original;
+  RigMotion local = motion;
+  for (size_t j = 0; j < local.rig.joints.size(); ++j) {
+    if (local.rig.joints[j].parent < 0) {
+      scaled.joints[j].scale *= ratio;
+      continue;
+    }
+    for (RigFrame& frame : local.frames) frame.translation[j] /= ratio;
+  }
+  return FormatGltf(scaled, local, 0, kAnimationName);
+}
+
+}  // namespace
+
+ClipPath ParseClipPath(const std::string& text) {
+  ClipPath out;
+  out.path = text;
+  if (IsFile(text)) return out;
+  const size_t hash = text.rfind('#');
+  if (hash != std::string::npos && IsFile(text.substr(0, hash))) {
+    out.path = text.substr(0, hash);
+    ParseSelection(text, text.substr(hash + 1), &out.select);
+    return out;
+  }
+  // The colon that parts two files; a drive letter's does not.
+  for (size_t colon = text.find(':'); colon != std::string::npos;
+       colon = text.find(':', colon + 1)) {
+    if (!IsFile(text.substr(0, colon))) continue;
+    out.skeleton = text.substr(0, colon);
+    out.path = text.substr(colon + 1);
+    return out;
+  }
+  return out;
+}
+
+ClipFile ReadClipFile(const ClipPath& path, double fps) {
+  std::string bytes = ReadBytes(path.path);
+  const Format format = FormatOf(bytes);
+  const bool selected = !path.select.animation.empty() || !path.select.skin.empty();
+  if (selected && format != Format::kGltf) {
+    throw InputError(path.path + ": is no glTF file, so #animation and #skin mean nothing");
+  }
+  if (!path.skeleton.empty()) {
+    const std::string skeleton = ReadBytes(path.skeleton);
+    if (FormatOf(skeleton) != Format::kAsf) {
+      throw InputError(path.skeleton + ": expected an Acclaim skeleton (ASF) before the ':'");
+    }
+    return FromAcclaim(skeleton, bytes, path, fps);
+  }
+  switch (format) {
+    case Format::kBvh:
+      return FromBvh(std::move(bytes), path.path);
+    case Format::kGltf:
+      return FromGltf(std::move(bytes), path);
+    case Format::kAsf:
+      throw InputError(path.path + ": is an Acclaim skeleton; name its motion too: " + path.path +
+                       ":CLIP.amc");
+    case Format::kAmc:
+      throw InputError(path.path +
+                       ": is an Acclaim motion; name its skeleton too: SKELETON.asf:" + path.path);
+    case Format::kUnknown:
+      break;
+  }
+  // The reader of the likeliest format says what is wrong.
+  const std::string extension = fs::path(path.path).extension().string();
+  if (extension == ".glb" || extension == ".gltf" || extension == ".vrm" || extension == ".vrma") {
+    return FromGltf(std::move(bytes), path);
+  }
+  return FromBvh(std::move(bytes), path.path);
+}
+
+ClipFile ReadClipFile(const std::string& text) { return ReadClipFile(ParseClipPath(text)); }
+
+std::vector<std::string> NamesOfClipFile(const ClipFile& original, const std::string& stem) {
+  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
+    if (gltf->bytes.rfind("glTF", 0) == 0) return {stem + ".glb"};
+    std::vector<std::string> names = {stem + ".gltf"};
+    for (const std::string& file : ExternalFiles(*gltf)) names.push_back(file);
+    return names;
+  }
+  if (original.format == "Acclaim") return {stem + ".amc", stem + ".asf"};
+  return {stem + ".bvh"};
+}
+
+std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion& motion,
+                                       const std::string& stem, double stature_ratio) {
+  if (const auto* bvh = std::get_if<BvhFile>(&original.original)) {
+    return {{stem + ".bvh", FormatBvh(*bvh, motion, stature_ratio)}};
+  }
+  if (const auto* acclaim = std::get_if<AcclaimFile>(&original.original)) {
+    return {{stem + ".amc", FormatAmc(*acclaim, motion, stature_ratio)},
+            {stem + ".asf", FormatAsf(*acclaim, stature_ratio)}};
+  }
+  const auto& gltf = std::get<GltfClip>(original.original);
+  std::vector<NamedBytes> files;
+  for (const std::string& name : NamesOfClipFile(original, stem)) {
+    files.push_back({name, files.empty() ? FormatScaledGltf(gltf, motion, stature_ratio)
+                                         : ReadBytes(gltf.folder + "/" + name)});
+  }
+  return files;
+}
+
+RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& files) {
+  const NamedBytes& first = files[0];
+  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
+    const ClipPath path = WrittenPath(original, "", "");
+    return ParseGltf(first.bytes, first.name, gltf->folder, path.select).motion;
+  }
+  if (original.format == "Acclaim") {
+    return ParseAcclaim(files[1].bytes, files[1].name, first.bytes, first.name,
+                        1 / original.motion.frame_time)
+        .motion;
+  }
+  return ParseBvh(first.bytes, first.name).motion;
+}
+
+ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem) {
+  const std::vector<std::string> names = NamesOfClipFile(original, stem);
+  ClipPath path;
+  path.path = folder + "/" + names[0];
+  if (original.format == "Acclaim") path.skeleton = folder + "/" + names[1];
+  if (original.format == "glTF") {
+    path.select.animation = kAnimationName;
+    path.select.skin = original.select.skin;
+  }
+  return path;
+}
+
+}  // namespace retarget

@@ -1,0 +1,66 @@
+// A motion file of any format that the project reads, and the solved motion back in the same
+// format. Formats are told by content, not by the file's name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "io/acclaim.h"
+#include "io/bvh.h"
+#include "io/gltf_clip.h"
+
+namespace retarget {
+
+// Where a clip is: a path, with what some formats need beside it:
+//   walk.bvh
+//   hero.glb#animation=Walk,skin=1     (names, or indices from 0; either may be left out)
+//   skeleton.asf:walk.amc
+// A file that is called just so is that file.
+struct ClipPath {
+  std::string path;      // of the motion
+  std::string skeleton;  // of an Acclaim motion
+  GltfSelect select;
+};
+ClipPath ParseClipPath(const std::string& text);  // throws InputError
+
+struct ClipFile {
+  RigMotion motion;
+  std::variant<BvhFile, GltfClip, AcclaimFile> original;
+  std::string format;                     // "BVH", "glTF", "Acclaim"
+  std::optional<double> metres_per_unit;  // as the format says it
+  std::optional<char> up;
+  std::optional<JointMap> map;  // as the file says it (VRM)
+  GltfSelect select;            // of a glTF file
+  bool has_motion = true;       // false: a character at rest
+  std::vector<std::string> notes;
+  std::string bytes;  // of all files read, for hashing
+};
+
+// `fps`: of an Acclaim motion, which does not say. Throws InputError.
+ClipFile ReadClipFile(const ClipPath& path, double fps = kAcclaimFps);
+ClipFile ReadClipFile(const std::string& text);
+
+// Files that hold `motion` in the format of `original`, the first of them the motion itself; names
+// begin with `stem`: a.bvh, a.glb, a.gltf with the files it refers to, a.amc with its a.asf.
+// `stature_ratio` is that of the body the motion is for, over the file's own.
+struct NamedBytes {
+  std::string name, bytes;
+};
+std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion& motion,
+                                       const std::string& stem, double stature_ratio);
+// The names alone.
+std::vector<std::string> NamesOfClipFile(const ClipFile& original, const std::string& stem);
+
+// The motion that such files hold, read as any reader would.
+RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& files);
+
+// Where FormatClipFile puts the motion in `folder`, for reading it back.
+ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem);
+
+// Name of the animation that is added to a glTF file.
+inline constexpr const char* kAnimationName = "retargeted";
+
+}  // namespace retarget
