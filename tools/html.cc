@@ -44,7 +44,7 @@ std::string WithFrames(const std::string& text) {
   return std::regex_replace(EscapeHtml(text), kFrame, "<span data-frame=\"$1\">$&</span>");
 }
 
-std::string Figure(double value, int digits) {
+std::string Decimal(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   const std::string text = fmt::format("{:.{}f}", value, digits);
   // A rounded zero has no sign.

@@ -6,7 +6,7 @@
 
 #include "tools/html.h"
 #include "tools/json_reading.h"
-#include "tools/metrics_table.h"
+#include "tools/comparison_tables.h"
 #include "tools/verdict.h"
 
 namespace retarget {
@@ -30,8 +30,8 @@ std::string RequirementsHtml(const Json& report) {
     const int digits = unit.empty() ? 0 : 2;
     table.Row({{EscapeHtml(check.value("name", ""))},
                met ? Cell{"✓ met", "good"} : Cell{"✕ missed", "bad"},
-               {Figure(scale * NumberAt(check, "/value"), digits) + shown, "number"},
-               {Figure(scale * NumberAt(check, "/limit"), digits) + shown, "number unit"},
+               {Decimal(scale * NumberAt(check, "/value"), digits) + shown, "number"},
+               {Decimal(scale * NumberAt(check, "/limit"), digits) + shown, "number unit"},
                {WithFrames(Words(check.value("where", "")))}},
               met ? "" : "class=\"missed\"");
   }
@@ -65,7 +65,7 @@ std::string TermsHtml(const Json& report) {
     };
     table.Row({{EscapeHtml(Words(name))},
                {precise(cost), "number"},
-               {sum > 0 ? Figure(100 * cost / sum, 1) + " %" : "–", "number"},
+               {sum > 0 ? Decimal(100 * cost / sum, 1) + " %" : "–", "number"},
                {precise(natural), "number"},
                {precise(NumberAt(term, "/largest")), "number"},
                {EscapeHtml(term.value("unit", "")), "unit"},
@@ -100,7 +100,7 @@ std::string InputsHtml(const Json& report) {
                {profile.empty() ? ""
                                 : fmt::format("{}, {:.4g} m per unit, {} up", EscapeHtml(profile),
                                               unit, EscapeHtml(TextAt(report, at + "/up")))},
-               {Figure(std::isnan(start) ? instant : start, 2) + " s", "number"},
+               {Decimal(std::isnan(start) ? instant : start, 2) + " s", "number"},
                {"<code>" + EscapeHtml(TextAt(report, at + "/hash")) + "</code>"}});
     notes += ListHtml(At(report, at + "/notes"));
   }
@@ -118,7 +118,7 @@ std::string PairsHtml(const std::vector<std::pair<std::string, std::string>>& pa
 std::string StartHtml(const Json& report) {
   const auto number = [&](const char* pointer, int digits, const char* unit) {
     const double value = NumberAt(report, pointer);
-    return std::isnan(value) ? "" : Figure(value, digits) + unit;
+    return std::isnan(value) ? "" : Decimal(value, digits) + unit;
   };
   const std::string simulation =
       PairsHtml({{"simulation", Words(TextAt(report, "/simulation/status"))},
@@ -142,7 +142,7 @@ std::string SolveHtml(const Json& report) {
   const auto add = [&](const std::string& name, const std::string& pointer, int digits,
                        const char* unit, double scale = 1) {
     const double value = scale * NumberAt(report, pointer);
-    if (!std::isnan(value)) pairs.emplace_back(name, Figure(value, digits) + unit);
+    if (!std::isnan(value)) pairs.emplace_back(name, Decimal(value, digits) + unit);
   };
   add("cost at the start", "/solve/initial_cost", 2, "");
   add("cost at the end", "/solve/cost", 2, "");
