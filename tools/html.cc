@@ -53,11 +53,12 @@ std::string Decimal(double value, int digits) {
 }
 
 HtmlTable::HtmlTable(const std::vector<Cell>& head) {
-  html_ = "<table><thead><tr>";
+  html_ = "<table>";
+  if (!head.empty()) html_ += "<thead><tr>";
   for (const Cell& cell : head) {
     html_ += fmt::format("<th scope=\"col\" class=\"{}\">{}</th>", cell.kind, cell.html);
   }
-  html_ += "</tr></thead><tbody>\n";
+  html_ += head.empty() ? "<tbody>\n" : "</tr></thead><tbody>\n";
 }
 
 void HtmlTable::Row(const std::vector<Cell>& cells, const std::string& attributes) {
