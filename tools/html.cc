@@ -44,7 +44,7 @@ std::string WithFrames(const std::string& text) {
   return std::regex_replace(EscapeHtml(text), kFrame, "<span data-frame=\"$1\">$&</span>");
 }
 
-std::string Figure(double value, int digits) {
+std::string Decimal(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   const std::string text = fmt::format("{:.{}f}", value, digits);
   // A rounded zero has no sign.
@@ -53,11 +53,12 @@ std::string Figure(double value, int digits) {
 }
 
 HtmlTable::HtmlTable(const std::vector<Cell>& head) {
-  html_ = "<table><thead><tr>";
+  html_ = "<table>";
+  if (!head.empty()) html_ += "<thead><tr>";
   for (const Cell& cell : head) {
     html_ += fmt::format("<th scope=\"col\" class=\"{}\">{}</th>", cell.kind, cell.html);
   }
-  html_ += "</tr></thead><tbody>\n";
+  html_ += head.empty() ? "<tbody>\n" : "</tr></thead><tbody>\n";
 }
 
 void HtmlTable::Row(const std::vector<Cell>& cells, const std::string& attributes) {

@@ -16,7 +16,7 @@ std::string Words(std::string name);
 std::string WithFrames(const std::string& text);
 
 // A number with `digits` decimals; an en dash where there is none (NaN).
-std::string Figure(double value, int digits);
+std::string Decimal(double value, int digits);
 
 struct Cell {
   std::string html;

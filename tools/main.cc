@@ -144,6 +144,12 @@ struct CommandLine {
     map->add_flag("--yaml", yaml, "print the map as a file to edit")->excludes(as_json);
     map->callback([this] { code = RunMap(map_clip, json, yaml); });
 
+    CLI::App* inspect = app->add_subcommand("inspect", "what is in a motion or character file");
+    inspect->add_option("file", map_clip.path, "BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
+        ->required();
+    inspect->add_flag("--json", json);
+    inspect->callback([this] { code = RunInspect(map_clip, json); });
+
     CLI::App* settings =
         app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");
     settings->add_option("--config", config, "start from this file");

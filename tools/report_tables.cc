@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "tools/comparison_tables.h"
 #include "tools/html.h"
 #include "tools/json_reading.h"
-#include "tools/metrics_html.h"
 #include "tools/verdict.h"
 
 namespace retarget {
@@ -30,8 +30,8 @@ std::string RequirementsHtml(const Json& report) {
     const int digits = unit.empty() ? 0 : 2;
     table.Row({{EscapeHtml(check.value("name", ""))},
                met ? Cell{"✓ met", "good"} : Cell{"✕ missed", "bad"},
-               {Figure(scale * NumberAt(check, "/value"), digits) + shown, "number"},
-               {Figure(scale * NumberAt(check, "/limit"), digits) + shown, "number unit"},
+               {Decimal(scale * NumberAt(check, "/value"), digits) + shown, "number"},
+               {Decimal(scale * NumberAt(check, "/limit"), digits) + shown, "number unit"},
                {WithFrames(Words(check.value("where", "")))}},
               met ? "" : "class=\"missed\"");
   }
@@ -65,7 +65,7 @@ std::string TermsHtml(const Json& report) {
     };
     table.Row({{EscapeHtml(Words(name))},
                {precise(cost), "number"},
-               {sum > 0 ? Figure(100 * cost / sum, 1) + " %" : "–", "number"},
+               {sum > 0 ? Decimal(100 * cost / sum, 1) + " %" : "–", "number"},
                {precise(natural), "number"},
                {precise(NumberAt(term, "/largest")), "number"},
                {EscapeHtml(term.value("unit", "")), "unit"},
@@ -100,7 +100,7 @@ std::string InputsHtml(const Json& report) {
                {profile.empty() ? ""
                                 : fmt::format("{}, {:.4g} m per unit, {} up", EscapeHtml(profile),
                                               unit, EscapeHtml(TextAt(report, at + "/up")))},
-               {Figure(std::isnan(start) ? instant : start, 2) + " s", "number"},
+               {Decimal(std::isnan(start) ? instant : start, 2) + " s", "number"},
                {"<code>" + EscapeHtml(TextAt(report, at + "/hash")) + "</code>"}});
     notes += ListHtml(At(report, at + "/notes"));
   }
@@ -118,7 +118,7 @@ std::string PairsHtml(const std::vector<std::pair<std::string, std::string>>& pa
 std::string StartHtml(const Json& report) {
   const auto number = [&](const char* pointer, int digits, const char* unit) {
     const double value = NumberAt(report, pointer);
-    return std::isnan(value) ? "" : Figure(value, digits) + unit;
+    return std::isnan(value) ? "" : Decimal(value, digits) + unit;
   };
   const std::string simulation =
       PairsHtml({{"simulation", Words(TextAt(report, "/simulation/status"))},
@@ -142,7 +142,7 @@ std::string SolveHtml(const Json& report) {
   const auto add = [&](const std::string& name, const std::string& pointer, int digits,
                        const char* unit, double scale = 1) {
     const double value = scale * NumberAt(report, pointer);
-    if (!std::isnan(value)) pairs.emplace_back(name, Figure(value, digits) + unit);
+    if (!std::isnan(value)) pairs.emplace_back(name, Decimal(value, digits) + unit);
   };
   add("cost at the start", "/solve/initial_cost", 2, "");
   add("cost at the end", "/solve/cost", 2, "");
@@ -176,12 +176,17 @@ std::string SettingsHtml(const Json& report) {
          rows + "</div></details></section>\n";
 }
 
+// A term and its sentences, at most `most`; then how many more there are.
 std::string Definition(const std::string& term, const std::vector<std::string>& sentences,
-                       const char* kind = "") {
+                       size_t most, const char* kind = "") {
   if (sentences.empty()) return "";
   std::string out = "<dt>" + term + "</dt>";
-  for (const std::string& s : sentences) {
-    out += fmt::format("<dd class=\"{}\">{}</dd>", kind, WithFrames(s));
+  for (size_t k = 0; k < std::min(most, sentences.size()); ++k) {
+    out += fmt::format("<dd class=\"{}\">{}</dd>", kind, WithFrames(sentences[k]));
+  }
+  if (sentences.size() > most) {
+    out += fmt::format("<dd class=\"more\">and {} more, under Requirements</dd>",
+                       sentences.size() - most);
   }
   return out + "\n";
 }
@@ -189,13 +194,22 @@ std::string Definition(const std::string& term, const std::vector<std::string>& 
 }  // namespace
 
 std::string VerdictHtml(const Json& report) {
+  constexpr size_t kAll = 100;
   const Verdict verdict = VerdictOf(report);
+  std::vector<std::string> asked = verdict.asked;
+  for (size_t k = 2; k < asked.size(); ++k) asked[1] += " " + asked[k];  // the tags in one line
+  asked.resize(std::min<size_t>(2, asked.size()));
+  const std::string left = Definition("Asked", asked, kAll) +
+                           Definition("Missed", verdict.missed, 3, "bad") +
+                           Definition("Stopped", verdict.stopped, kAll);
+  const std::string right =
+      Definition("Compared", verdict.compared, kAll) + Definition("Look at", verdict.look, kAll);
   return fmt::format(
-      "<header class=\"{}\"><p class=\"run\">{}</p><h1>{}</h1>\n<dl>{}{}{}{}{}</dl></header>\n",
+      "<header class=\"{}\"><p class=\"run\">{}</p><h1>{}</h1>\n<div "
+      "class=\"sentences\"><dl>{}</dl>"
+      "<dl>{}</dl></div></header>\n",
       verdict.met ? "met" : "missed", EscapeHtml(report.value("generator", "retarget")),
-      EscapeHtml(verdict.outcome), Definition("Asked", verdict.asked),
-      Definition("Missed", verdict.missed, "bad"), Definition("Why", verdict.why),
-      Definition("Compared", verdict.compared), Definition("Look at", verdict.look));
+      EscapeHtml(verdict.outcome), left, right);
 }
 
 std::string TablesHtml(const Json& report) {
@@ -204,9 +218,10 @@ std::string TablesHtml(const Json& report) {
               "A tag is a pair of paths along the limbs that must stay wound round each other. "
               "s GLI says how far they are, in turns: above one half they are tangled.",
               true);
+  out += Card("Why requirements are missed", ListHtml(At(report, "/conflicts"), "/sentence"), "",
+              true);
   out += "<div class=\"column\">" + Card("Requirements", RequirementsHtml(report)) +
          Card("Holds", HoldsTableHtml(report)) +
-         Card("Conflicts", ListHtml(At(report, "/conflicts"), "/sentence")) +
          Card("Warnings", ListHtml(At(report, "/warnings"))) + "</div>\n";
   out += "<div class=\"column\">" + Card("Metrics", MetricsTableHtml(report)) + "</div>\n";
   out +=
@@ -214,9 +229,9 @@ std::string TablesHtml(const Json& report) {
            "Cost = ½ Σ (weight · residual)²; the natural cost is the same without weights. Where "
            "something gives way too far, raise its weight or lower that of what it gives way to.",
            true);
-  out += "<div class=\"column\">" + Card("Inputs", InputsHtml(report)) +
-         Card("Simulation and start", StartHtml(report)) + "</div>\n";
-  out += "<div class=\"column\">" + Card("Solve and timings", SolveHtml(report)) + "</div>\n";
+  out += Card("Inputs", InputsHtml(report), "", true);
+  out += Card("Simulation and start", StartHtml(report));
+  out += Card("Solve and timings", SolveHtml(report));
   out += SettingsHtml(report);
   return out +
          "</div>\n<footer>Metrics are measured on the written GLB files. s GLI: Gauss Linking "

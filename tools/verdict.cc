@@ -110,7 +110,9 @@ std::string Missed(const Json& check) {
   } else {
     line = fmt::format("{}: {:.4g} {}, {:.4g} allowed", name, value, shown, limit);
   }
-  const std::string where = Words(check.value("where", ""));
+  std::string where = Words(check.value("where", ""));
+  const int frame = FrameNamedIn(where);
+  if (starts("tangle") && frame >= 0) where = fmt::format("frame {}", frame);  // the tag is named
   return line + (where.empty() ? "" : " (" + where + ")") + ".";
 }
 
@@ -160,17 +162,22 @@ std::vector<std::string> Why(const Json& report) {
     const std::string sentence = TextAt(conflict, "/sentence");
     if (!sentence.empty()) why.push_back(sentence);
   }
+  return why;
+}
+
+std::vector<std::string> Stopped(const Json& report) {
+  std::vector<std::string> stopped;
   const std::string status = TextAt(report, "/solve/status");
   if (!status.empty() && status != "converged") {
-    why.push_back(
+    stopped.push_back(
         fmt::format("The solver stopped early ({}); this is the best result so far.", status));
   }
   if (TextAt(report, "/start/requested") == "simulated" &&
       TextAt(report, "/start/used") == "template") {
     const std::string reason = TextAt(report, "/start/reason");
-    if (!reason.empty()) why.push_back(reason);
+    if (!reason.empty()) stopped.push_back(reason);
   }
-  return why;
+  return stopped;
 }
 
 std::vector<std::string> Look(const Json& report, const std::vector<std::string>& missed) {
@@ -218,6 +225,7 @@ Verdict VerdictOf(const Json& report) {
   verdict.outcome = Outcome(report, verdict.missed.size(), checks.size());
   verdict.asked = Asked(report);
   verdict.why = Why(report);
+  verdict.stopped = Stopped(report);
   verdict.compared = Compared(report);
   verdict.look = Look(report, verdict.missed);
   return verdict;
@@ -226,8 +234,8 @@ Verdict VerdictOf(const Json& report) {
 std::vector<std::string> VerdictSentences(const Json& report) {
   const Verdict verdict = VerdictOf(report);
   std::vector<std::string> all = {verdict.outcome};
-  for (const auto* part :
-       {&verdict.asked, &verdict.missed, &verdict.why, &verdict.compared, &verdict.look}) {
+  for (const auto* part : {&verdict.asked, &verdict.missed, &verdict.why, &verdict.stopped,
+                           &verdict.compared, &verdict.look}) {
     all.insert(all.end(), part->begin(), part->end());
   }
   return all;

@@ -1,10 +1,12 @@
 // Any rig in, the same rig out: every format through the clip loader and the main command.
 #include <algorithm>
+#include <map>
 
 #include "model/so3.h"
 #include "model/write_back.h"
 #include "tests/tools/run_program.h"
 #include "tools/load_clip.h"
+#include "tools/report.h"
 
 namespace retarget {
 namespace {
@@ -158,6 +160,20 @@ TEST(AnyRig, StiffTurnsAreThoseThatTheFileCannotHold) {
     EXPECT_LT(error_of(within), 0.003) << name;
     EXPECT_GT(error_of(across[0]), 0.01) << name;
   }
+}
+
+TEST(AnyRig, InspectSaysWhatIsInAFile) {
+  SKIP_WITHOUT_SHARED_DATA();
+  const Scratch scratch;
+  const Outcome fox =
+      RunProgram(scratch, "inspect --json " + SharedPath("data/characters/Fox.glb"));
+  ASSERT_EQ(fox.code, 0) << fox.err;
+  const Json json = Json::parse(fox.out);
+  EXPECT_NE(json["animations"].get<std::string>().find("\"Walk\""), std::string::npos);
+  EXPECT_EQ(json["human"].get<std::string>().rfind("no: ", 0), 0u);
+  EXPECT_NE(RunProgram(scratch, "inspect " + kHold + "/a.bvh").out.find("yes: profile mixamo"),
+            std::string::npos);
+  EXPECT_EQ(RunProgram(scratch, "inspect nowhere.glb").code, 2);
 }
 
 TEST(AnyRig, ClipsThatCannotBeReadSayWhatToDo) {

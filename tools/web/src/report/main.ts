@@ -59,7 +59,6 @@ async function start(): Promise<void> {
     playerNodePosition: (which, node) => players.nodePosition(which, node),
     playerTagGli: (which, tag) => players.tagGli(which, tag),
   };
-  await players.load();
   const transport = new Transport(byId("transport"), report, series, clock, players);
   const plots = byId("plots");
   addPlots(plots, report, series, clock);
@@ -68,6 +67,9 @@ async function start(): Promise<void> {
   keepInView();
   openForPrint();
   addEventListener("keydown", (event) => onKey(event, clock));
+  // Plots and tables can be used while the players, which take longer, are made.
+  await new Promise((painted) => setTimeout(painted));
+  await players.load();
   players.view?.drawNow();
   readyMs = performance.now();
   ready = true;

@@ -1,6 +1,6 @@
 // Marks on a stage: discs under planted feet, and a ball where bodies overlap.
 
-import { CircleGeometry, Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry } from "three";
+import { Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry } from "three";
 import { findNode, parentOf } from "../shared/body";
 import { middleOfClosest } from "../shared/closest";
 import { okabeIto } from "../shared/colours";
@@ -35,12 +35,9 @@ export class Marks {
     }
     // Seen through the bodies: the place is inside of them.
     const seen = (opacity: number) => new MeshBasicMaterial(
-      { color: okabeIto.vermilion, transparent: true, opacity, depthTest: false, fog: false });
-    const core = new Mesh(new SphereGeometry(0.5, 20, 12), seen(0.95));
-    const halo = new Mesh(new SphereGeometry(1, 20, 12), seen(0.35));
-    const dot = new Mesh(new CircleGeometry(0.01, 8), seen(1));
-    this.ball.add(halo, core, dot);
-    this.ball.renderOrder = 10;
+      { color: okabeIto.vermilion, transparent: true, opacity, depthTest: false });
+    this.ball.add(new Mesh(new SphereGeometry(1, 20, 12), seen(0.35)),
+      new Mesh(new SphereGeometry(0.5, 20, 12), seen(0.95)));
     figures.scene.add(this.ball);
   }
 

@@ -72,7 +72,7 @@ export class Players {
     try {
       this.viewer = new Viewer(this.container);
     } catch {
-      this.container.classList.add("no-webgl");
+      document.documentElement.classList.add("no-webgl");
       this.container.prepend(element("p", { class: "absent" },
         "This browser offers no WebGL, so there are no players here. Plots and tables below are " +
         "complete, and scene.glb opens in any glTF viewer."));
@@ -94,9 +94,6 @@ export class Players {
     this.refresh();
   }
 
-  get canPlay(): boolean {
-    return this.viewer !== null;
-  }
   get view(): Viewer | null {
     return this.viewer;
   }

@@ -61,6 +61,7 @@ export class Transport {
       });
     this.heat = heat.box;
     const legend = this.makeLegend();
+    heat.label.className = "needs-players";
     this.tags = report.tangles.map((_, k) => this.makeTag(k));
     container.append(
       this.makeScrub(),
@@ -81,9 +82,8 @@ export class Transport {
       select("speed", speeds, "1", (v) => (clock.speed = Number(v))),
       checkbox("loop", "start again at the end", clock.loop, (on) => (clock.loop = on)).label,
     );
-    if (!players.canPlay) return [playing];
     const names = Object.keys(views).map((v) => [v, v] as [string, string]);
-    return [playing, group(
+    const camera = group(
       select("view; drag to orbit, Ctrl + wheel to zoom", names, "three-quarter",
         (v) => players.view?.look(v as View)),
       button("+", "closer (Ctrl + wheel)", () => players.view?.zoom(0.8)),
@@ -92,7 +92,9 @@ export class Transport {
         players.following = on;
         players.refresh();
       }).label,
-    )];
+    );
+    camera.classList.add("needs-players");
+    return [playing, camera];
   }
 
   private makeLegend(): HTMLElement {

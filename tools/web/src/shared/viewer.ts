@@ -15,15 +15,12 @@ interface Stage {
   dress: () => void; // takes the colours of the theme
 }
 
-// Whether drawing is done by the processor; then less is drawn. Throws where there is no WebGL.
-function drawsInSoftware(): boolean {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  if (!gl) throw new Error("no WebGL");
-  const name = String(gl.getParameter(gl.RENDERER));
-  const info = gl.getExtension("WEBGL_debug_renderer_info");
-  const full = info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : name;
-  gl.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software/i.test(full);
+// Pixels drawn per CSS pixel. A graphics card smooths edges by drawing more of them, which serves
+// as well as multisampling; where the processor draws, each pixel counts.
+function pixelRatio(context: WebGL2RenderingContext): number {
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  const name = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  return /swiftshader|llvmpipe|softpipe|software/i.test(name) ? 1 : 2;
 }
 
 // Lights, floor and grid.
@@ -65,7 +62,7 @@ export class Viewer {
   private readonly camera = new PerspectiveCamera(30, 1, 0.05, 60);
   private readonly controls: OrbitControls;
   private readonly stages: Stage[] = [];
-  private readonly mostPixels: number; // per CSS pixel
+  private size = "";
   private scheduled = false;
   private visible = true;
   private beforeDraw: () => void = () => {};
@@ -76,9 +73,10 @@ export class Viewer {
     canvas.className = "viewer";
     canvas.setAttribute("aria-hidden", "true");
     // The buffer is kept so that the page can be printed.
-    const slow = drawsInSoftware();
-    this.mostPixels = slow ? 1 : 2;
-    this.renderer = new WebGLRenderer({ canvas, antialias: !slow, preserveDrawingBuffer: true });
+    const context = canvas.getContext("webgl2", { preserveDrawingBuffer: true });
+    if (!context) throw new Error("no WebGL");
+    this.renderer = new WebGLRenderer({ canvas, context });
+    this.renderer.setPixelRatio(pixelRatio(context));
     container.prepend(canvas);
     this.renderer.setScissorTest(true);
     this.controls = new OrbitControls(this.camera, container);
@@ -118,8 +116,8 @@ export class Viewer {
   // Looks at the pair from a named side.
   look(view: View): void {
     const direction = new Vector3(...views[view]).normalize();
-    this.controls.target.setY(0.86);
-    this.camera.position.copy(this.controls.target).addScaledVector(direction, 4.3);
+    this.controls.target.setY(0.84);
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, 4.75);
     this.controls.update();
     this.invalidate();
   }
@@ -155,8 +153,10 @@ export class Viewer {
     const [width, height] = [container.clientWidth, container.clientHeight];
     if (width === 0 || height === 0) return;
     this.beforeDraw();
-    renderer.setPixelRatio(Math.min(devicePixelRatio || 1, this.mostPixels));
-    renderer.setSize(width, height);
+    if (`${width} ${height}` !== this.size) {
+      this.size = `${width} ${height}`;
+      renderer.setSize(width, height);
+    }
     renderer.setClearColor(0x000000, 0);
     renderer.setScissor(0, 0, width, height);
     renderer.clear();

@@ -1,4 +1,4 @@
-#include "tools/metrics_html.h"
+#include "tools/comparison_tables.h"
 
 #include <fmt/format.h>
 
@@ -93,7 +93,7 @@ double Limit(const Json& report, const std::string& name) {
 }
 
 Cell Judged(double value, int digits, bool bad) {
-  return {Figure(value, digits) + (bad ? " ✕" : ""), bad ? "number bad" : "number"};
+  return {Decimal(value, digits) + (bad ? " ✕" : ""), bad ? "number bad" : "number"};
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ std::string MetricsTableHtml(const Json& report) {
     }
     if (!known) continue;
     cells.push_back(
-        {std::isnan(limit) ? "" : (row.at_least ? "> " : "") + Figure(limit, row.digits),
+        {std::isnan(limit) ? "" : (row.at_least ? "> " : "") + Decimal(limit, row.digits),
          "number unit"});
     cells.push_back({row.unit, "unit"});
     table.Row(cells);
@@ -148,8 +148,8 @@ std::string TagsTableHtml(const Json& report) {
     std::vector<Cell> cells = {{std::to_string(k + 1)},
                                path("a"),
                                path("b"),
-                               {Figure(NumberAt(tags[k], "/template_gli"), 2), "number"},
-                               {Figure(NumberAt(tags[k], "/rho"), 2), "number"}};
+                               {Decimal(NumberAt(tags[k], "/template_gli"), 2), "number"},
+                               {Decimal(NumberAt(tags[k], "/rho"), 2), "number"}};
     const auto of = [&](const char* motion, const char* key) {
       return NumberAt(report, fmt::format("/metrics/{}/tangles/{}/{}", motion, k, key));
     };
