@@ -44,6 +44,7 @@ struct GltfClip {
   // s, of each frame: the file's own key times. Empty where the frames do not stand at the keys.
   std::vector<double> key_times;
   std::string animation;           // its name; empty for a character at rest
+  std::vector<int> skins;          // the character's, indices in the file
   std::optional<JointMap> map;     // VRM and VRMA say which bone is which; absent bones are -1
   bool faces_minus_z = false;      // as VRM 0.x does; everything else should face +Z
   std::vector<std::string> notes;  // what was tolerated or left aside, one line each

@@ -53,23 +53,14 @@ void RefuseCompression(const json& document, const std::string& name) {
   }
 }
 
-// A file below `folder`, links resolved. The only way to disk: everything else is "not found".
-bool IsInside(const std::string& path, const std::string& folder) {
-  std::error_code error;
-  const fs::path base = fs::canonical(folder.empty() ? "." : folder, error);
-  if (error) return false;
-  const fs::path file = fs::canonical(path, error);
-  if (error || !fs::is_regular_file(file, error)) return false;
-  return std::mismatch(base.begin(), base.end(), file.begin(), file.end()).first == base.end();
-}
-
+// The loader's only way to disk: everything else is "not found".
 tinygltf::FsCallbacks Sandbox(std::string* folder) {
   tinygltf::FsCallbacks callbacks;
   callbacks.user_data = folder;
   callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
   callbacks.FileExists = [](const std::string& path, void* user) {
     const std::string& base = *static_cast<std::string*>(user);
-    return !base.empty() && path.starts_with(base) && IsInside(path, base);
+    return !base.empty() && path.starts_with(base) && IsFileInside(path, base);
   };
   callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
                                const std::string& path, void*) {
@@ -139,6 +130,15 @@ void SortNodes(const std::string& name, LoadedGltf* gltf) {
 }
 
 }  // namespace
+
+bool IsFileInside(const std::string& path, const std::string& folder) {
+  std::error_code error;
+  const fs::path base = fs::canonical(folder.empty() ? "." : folder, error);
+  if (error) return false;
+  const fs::path file = fs::canonical(path, error);
+  if (error || !fs::is_regular_file(file, error)) return false;
+  return std::mismatch(base.begin(), base.end(), file.begin(), file.end()).first == base.end();
+}
 
 LoadedGltf LoadGltf(std::string_view bytes, const std::string& name, const std::string& folder) {
   const GltfContainer container = SplitGltf(bytes, name);

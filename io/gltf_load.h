@@ -23,4 +23,7 @@ struct LoadedGltf {
 // where it is empty. Throws InputError, one line that begins with `name`.
 LoadedGltf LoadGltf(std::string_view bytes, const std::string& name, const std::string& folder);
 
+// Whether `path` is a regular file in `folder` or below it, links resolved.
+bool IsFileInside(const std::string& path, const std::string& folder);
+
 }  // namespace retarget

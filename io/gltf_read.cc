@@ -139,6 +139,7 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
     humanoid.clear();  // somebody else was selected
     bones = VrmBones();
   }
+  clip.skins = skins;
   BuildSkeleton(gltf, skins, humanoid, tracks, &accessors, &clip);
   if (clip.joints.empty()) {
     throw InputError(name + (animation < 0 ? ": no skin and no animation, expected a character"
