@@ -140,22 +140,20 @@ std::vector<std::string> ExternalFiles(const GltfClip& clip) {
   return files;
 }
 
-// Another size of the figure: glTF has no lengths to scale, so its roots get a scale.
-std::string FormatScaledGltf(const GltfClip& original, const RigMotion& motion, double ratio) {
-  if (ratio == 1) return FormatGltf(original, motion, 0, kAnimationName);
-  GltfClip scaled = original;
-  RigMotion local = motion;
-  for (size_t j = 0; j < local.rig.joints.size(); ++j) {
-    if (local.rig.joints[j].parent < 0) {
-      scaled.joints[j].scale *= ratio;
+}  // namespace
+
+ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double ratio) {
+  ScaledGltf scaled{original, motion};
+  if (ratio == 1) return scaled;
+  for (size_t j = 0; j < motion.rig.joints.size(); ++j) {
+    if (motion.rig.joints[j].parent < 0) {
+      scaled.clip.joints[j].scale *= ratio;
       continue;
     }
-    for (RigFrame& frame : local.frames) frame.translation[j] /= ratio;
+    for (RigFrame& frame : scaled.motion.frames) frame.translation[j] /= ratio;
   }
-  return FormatGltf(scaled, local, 0, kAnimationName);
+  return scaled;
 }
-
-}  // namespace
 
 ClipPath ParseClipPath(const std::string& text) {
   ClipPath out;
@@ -239,8 +237,12 @@ std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion
   const auto& gltf = std::get<GltfClip>(original.original);
   std::vector<NamedBytes> files;
   for (const std::string& name : NamesOfClipFile(original, stem)) {
-    files.push_back({name, files.empty() ? FormatScaledGltf(gltf, motion, stature_ratio)
-                                         : ReadBytes(gltf.folder + "/" + name)});
+    if (!files.empty()) {
+      files.push_back({name, ReadBytes(gltf.folder + "/" + name)});
+      continue;
+    }
+    const ScaledGltf scaled = ScaleGltf(gltf, motion, stature_ratio);
+    files.push_back({name, FormatGltf(scaled.clip, scaled.motion, 0, kAnimationName)});
   }
   return files;
 }

@@ -54,6 +54,14 @@ std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion
 // The names alone.
 std::vector<std::string> NamesOfClipFile(const ClipFile& original, const std::string& stem);
 
+// A glTF clip and its motion for a body of another size: glTF has no lengths to scale, so the roots
+// get a scale, and the translations below them are as they would be without.
+struct ScaledGltf {
+  GltfClip clip;
+  RigMotion motion;
+};
+ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double ratio);
+
 // The motion that such files hold, read as any reader would.
 RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& files);
 

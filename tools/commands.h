@@ -25,6 +25,7 @@ struct RetargetOptions {
   std::array<ClipOptions, 2> clip;
   std::string template_path, config_path, out = "out", frames;
   std::vector<std::string> set;
+  std::string show = "figures";  // of scene.glb: "figures" or "characters"
   double fps = 30, template_at = 0;
   int threads = -1;  // -1: as configured
   bool json = false, force = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "io/character_scene.h"
 #include "io/scene_glb.h"
 #include "io/settings_file.h"
 #include "io/template_file.h"
@@ -59,6 +60,10 @@ Job LoadJob(const RetargetOptions& options) {
     job.clip[f] = LoadClip(options.clip[f]);
     common = std::min(common, job.clip[f].duration() - options.clip[f].start);
   }
+  const auto is_gltf = [](const LoadedClip& clip) { return clip.file.format == "glTF"; };
+  if (options.show == "characters" && !is_gltf(job.clip[0]) && !is_gltf(job.clip[1])) {
+    throw InputError("--show characters: neither clip is, or is put on, a glTF character");
+  }
   const int available = static_cast<int>(std::floor(common * options.fps + 1e-3)) + 1;
   job.frames = ParseFrames(options.frames, available);
   for (int f = 0; f < 2; ++f) {
@@ -88,6 +93,32 @@ void TellNotes(const Job& job) {
     }
     for (const std::string& note : facts.notes) fmt::print(stderr, "  note: {}\n", note);
   }
+}
+
+std::string CharacterScene(const Job& job, const RetargetResult& result, const std::string& scene) {
+  std::array<ScaledGltf, 2> scaled;
+  std::array<SceneCharacter, 2> character;
+  std::array<const SceneCharacter*, 2> shown = {nullptr, nullptr};
+  for (int f = 0; f < 2; ++f) {
+    const LoadedClip& clip = job.clip[f];
+    const auto* gltf = std::get_if<GltfClip>(&clip.file.original);
+    if (gltf == nullptr) continue;
+    RigMotion motion;
+    motion.rig = clip.file.motion.rig;
+    motion.frame_time = 1 / result.scene.fps();
+    for (int t = 0; t < result.scene.num_frames(); ++t) {
+      const double time = clip.options.start + (job.frames.first + t) / result.scene.fps();
+      motion.frames.push_back(
+          clip.binding->Apply(SampleRig(clip.file.motion, time), result.solved[f].frames[t]));
+    }
+    scaled[f] = ScaleGltf(*gltf, motion, clip.binding->stature_ratio());
+    character[f] = {&scaled[f].clip, &scaled[f].motion};
+    shown[f] = &character[f];
+  }
+  std::vector<std::string> notes;
+  std::string bytes = FormatCharacterScene(scene, shown, &notes);
+  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+  return bytes;
 }
 
 std::string SceneBytes(const Scene& scene, const std::array<Clip, 2>& clips) {

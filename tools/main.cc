@@ -105,6 +105,9 @@ struct CommandLine {
     app->add_option("--set", o.set, "one setting, such as weights.tangle=20 (repeatable)");
     app->add_option("--out", o.out, "folder for the results")->capture_default_str();
     app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
+    app->add_option("--show", o.show, "scene.glb shows capsule figures, or the glTF characters")
+        ->check(CLI::IsMember({"figures", "characters"}))
+        ->capture_default_str();
     app->add_option("--fps", o.fps, "output frame rate")
         ->check(CLI::Range(1.0, 1000.0))
         ->capture_default_str();

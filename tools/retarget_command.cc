@@ -103,7 +103,9 @@ int RunRetarget(const RetargetOptions& options) {
   MeasuredScene source(SceneBytes(result.scene, result.scene.source), "source.glb", subject.body);
   MeasuredScene baseline(SceneBytes(result.scene, result.simulation.motion), "baseline.glb",
                          subject.body);
-  MeasuredScene scene(SceneBytes(result.scene, result.solved), "scene.glb", subject.body);
+  const std::string figures = SceneBytes(result.scene, result.solved);
+  MeasuredScene scene(options.show == "characters" ? CharacterScene(job, result, figures) : figures,
+                      "scene.glb", subject.body);
   for (MeasuredScene* motion : {&source, &baseline, &scene}) motion->Measure(subject, source);
   const Metrics& metrics = scene.metrics();
   std::vector<RequirementCheck> checks = CheckRequirements(subject, metrics, settings.requirements);
@@ -134,7 +136,7 @@ int RunRetarget(const RetargetOptions& options) {
   output.Add("report.json", report.dump(1) + "\n");
   const Json series = SeriesJson(subject, source.series(), &baseline.series(), scene.series());
   output.Add("report.html",
-             FormatReportPage({report, series, source.bytes(), baseline.bytes(), scene.bytes()}));
+             FormatReportPage({report, series, source.bytes(), baseline.bytes(), figures}));
   output.Add("config.yaml", FormatSettings(settings));
   output.Commit();
 

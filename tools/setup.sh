@@ -6,11 +6,10 @@ set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config ccache libceres-dev libeigen3-dev libglm-dev
           libtinygltf-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev zlib1g-dev
           libmujoco-dev libqhull-dev libgl-dev)
-if [[ ${1:-} == --tests ]]; then
-  packages+=(libgtest-dev)
-  command -v node >/dev/null || packages+=(nodejs)
-  command -v npm >/dev/null || packages+=(npm)
-fi
+# The report page is built with them; another installation of both will do.
+command -v node >/dev/null || packages+=(nodejs)
+command -v npm >/dev/null || packages+=(npm)
+[[ ${1:-} == --tests ]] && packages+=(libgtest-dev)
 
 [[ ${1:-} == --bench ]] && packages+=(libbenchmark-dev python3)
 

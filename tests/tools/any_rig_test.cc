@@ -118,6 +118,16 @@ TEST(AnyRig, CharactersAndAcclaimThroughTheMainCommand) {
   EXPECT_GT(written.size(), original.size());
   EXPECT_NE(written.find("retargeted"), std::string::npos);
 
+  // The same run with the characters shown measures the same.
+  const Outcome shown = RunProgram(
+      scratch, kExample + " --frames 0:60 --json --show characters --stature-b 1.5 --character-b " +
+                   characters + "m2m_mixamo-sample-rig.glb --out " + (scratch / "shown"));
+  ASSERT_EQ(shown.code, 0) << shown.err;
+  const std::string scene = ReadWholeFile(scratch / "shown/scene.glb");
+  EXPECT_NE(scene.find("b character/"), std::string::npos);
+  EXPECT_EQ(scene.find("a character/"), std::string::npos);
+  EXPECT_EQ(RunProgram(scratch, "verify " + (scratch / "shown")).code, 0);
+
   const std::string clips = SharedPath("data/clips/cmu_16_15");
   const Outcome amc = RunProgram(scratch, "--clip-a " + clips + ".asf:" + clips + ".amc --clip-b " +
                                               clips + ".bvh --frames 0:45 --template " +
@@ -187,6 +197,11 @@ TEST(AnyRig, ClipsThatCannotBeReadSayWhatToDo) {
             std::string::npos);
   EXPECT_NE(ErrorOf(clips + "cmu_16_15.bvh#animation=0").find("no glTF"), std::string::npos);
   EXPECT_NE(ErrorOf(characters + "Fox.glb#bone=1").find("#animation=NAME"), std::string::npos);
+  const Scratch scratch;
+  const Outcome shown =
+      RunProgram(scratch, kExample + " --frames 0:9 --show characters --out " + (scratch / "x"));
+  EXPECT_EQ(shown.code, 2) << "neither is a character";
+  EXPECT_FALSE(fs::exists(scratch / "x/scene.glb"));
   EXPECT_NE(ErrorOf("nowhere.glb").find("nowhere.glb"), std::string::npos);
 }
 
