@@ -551,12 +551,13 @@ TEST(CharacterScene, KnowsTheIndicesInExtensions) {
 // ---- Refusals.
 
 std::string Refusal(const GltfMaker& maker) {
+  static const std::string plain = PlainScene();
   GltfMaker copy = maker;
   const GltfClip clip = ParseGltf(copy.Glb(), "a.glb", "");
   const RigMotion motion = SomeMotion(clip, 3);
   const SceneCharacter a{&clip, &motion};
   try {
-    FormatCharacterScene(PlainScene(), {&a, nullptr});
+    FormatCharacterScene(plain, {&a, nullptr});
   } catch (const InputError& error) {
     return error.what();
   }
