@@ -5,10 +5,12 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config ccache libceres-dev libeigen3-dev libglm-dev
           libtinygltf-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev zlib1g-dev)
+# The report page is built with them.
+command -v node >/dev/null || packages+=(nodejs)
+command -v npm >/dev/null || packages+=(npm)
 if [[ ${1:-} == --tests ]]; then
   packages+=(libgtest-dev)
-  command -v node >/dev/null || packages+=(nodejs)
-  command -v npm >/dev/null || packages+=(npm)
+  [[ -x ${RETARGET_CHROMIUM:-/usr/bin/chromium} ]] || packages+=(chromium)
 fi
 
 [[ ${1:-} == --bench ]] && packages+=(libbenchmark-dev python3)
