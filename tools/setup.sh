@@ -9,7 +9,10 @@ packages=(g++ cmake ninja-build pkg-config ccache libceres-dev libeigen3-dev lib
 # The report page is built with them; another installation of both will do.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)
-[[ ${1:-} == --tests ]] && packages+=(libgtest-dev)
+if [[ ${1:-} == --tests ]]; then
+  packages+=(libgtest-dev)
+  [[ -x ${RETARGET_CHROMIUM:-/usr/bin/chromium} ]] || packages+=(chromium)
+fi
 
 [[ ${1:-} == --bench ]] && packages+=(libbenchmark-dev python3)
 

@@ -7,7 +7,7 @@ import { byId } from "../shared/dom";
 import { Clock } from "./clock";
 import { readReport, readSeries, type Variant } from "./data";
 import { Players } from "./players";
-import { addPlots } from "./plots";
+import { addCost, addPlots } from "./plots";
 import { keepInView } from "./stage";
 import { TrackingStrip } from "./strip";
 import { enliven, openForPrint } from "./tables";
@@ -60,11 +60,11 @@ async function start(): Promise<void> {
     playerTagGli: (which, tag) => players.tagGli(which, tag),
   };
   const transport = new Transport(byId("transport"), report, series, clock, players);
-  const plots = byId("plots");
-  addPlots(plots, report, series, clock);
-  if (series.result.tracking_deg) new TrackingStrip(plots, series, clock);
+  addPlots(byId("plots"), report, series, clock);
+  if (series.result.tracking_deg) new TrackingStrip(byId("wide-plots"), series, clock);
+  addCost(byId("wide-plots"), report);
   enliven(clock, transport);
-  keepInView();
+  keepInView(() => players.view?.drawNow());
   openForPrint();
   addEventListener("keydown", (event) => onKey(event, clock));
   // Plots and tables can be used while the players, which take longer, are made.

@@ -76,6 +76,7 @@ export class Players {
       this.container.prepend(element("p", { class: "absent" },
         "This browser offers no WebGL, so there are no players here. Plots and tables below are " +
         "complete, and scene.glb opens in any glTF viewer."));
+      this.refresh();
       return;
     }
     this.viewer.onDraw(() => this.pose());

@@ -67,11 +67,10 @@ export function addPlots(
   });
   centimetres("Below the floor", (s) => both(s.floor_cm), 100 * limitOf(report, "floor", 0.01));
   centimetres("Penetration of a body with itself", (s) => both(s.self_penetration_cm));
-  addCost(container, report);
 }
 
 // Cost per iteration: all of it, and its largest parts.
-function addCost(container: HTMLElement, report: Report): void {
+export function addCost(container: HTMLElement, report: Report): void {
   const { history } = report.solve;
   if (history.length === 0) return;
   const peak = new Map<string, number>();

@@ -2,7 +2,8 @@
 
 import { byId } from "../shared/dom";
 
-export function keepInView(): void {
+// `changed` is told when they become small or large.
+export function keepInView(changed: () => void): void {
   const space = byId("stage-space"); // keeps its height, so that nothing jumps
   const stage = byId("stage");
   let small = false;
@@ -13,6 +14,7 @@ export function keepInView(): void {
     if (small) space.style.height = `${space.offsetHeight}px`;
     stage.classList.toggle("small", small);
     if (!small) space.style.height = "";
+    changed();
   };
   addEventListener("scroll", update, { passive: true });
   addEventListener("resize", update);

@@ -155,7 +155,7 @@ export class Viewer {
     this.beforeDraw();
     if (`${width} ${height}` !== this.size) {
       this.size = `${width} ${height}`;
-      renderer.setSize(width, height);
+      renderer.setSize(width, height, false); // the style sheet says how large it is shown
     }
     renderer.setClearColor(0x000000, 0);
     renderer.setScissor(0, 0, width, height);

@@ -1,0 +1,73 @@
+// The pages' Gauss Linking Integral against numerical integration in high precision:
+//   node gli_test.mjs SHARED_DIR WEB_BUILD
+// Exit code 77 where the reference data or the pages' tools are not there.
+import assert from "node:assert/strict";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+const [shared, build] = process.argv.slice(2);
+const golden = (name) => JSON.parse(readFileSync(join(shared, "golden", name), "utf8"));
+if (!existsSync(join(shared, "golden", "segment_pairs.json")) || !existsSync(join(build, "node_modules"))) {
+  console.log(`skipped: no reference data at ${shared}, or no ${build}/node_modules`);
+  process.exit(77);
+}
+const esbuild = createRequire(join(build, "here.js"))("esbuild");
+const bundle = join(build, "gli_for_test.mjs");
+writeFileSync(bundle, esbuild.buildSync({
+  stdin: {
+    contents: 'export * from "./src/shared/gli"; export * from "./src/shared/body";',
+    resolveDir: build,
+  },
+  bundle: true, write: false, format: "esm",
+}).outputFiles[0].text);
+const { findNode, gliTable, nodeNames, numSegments, parentOf, pathGli, pathSigns, segmentGli } =
+  await import(pathToFileURL(bundle));
+
+const ofPair = ({ a, b, c, d }) => segmentGli([...a, ...b], 0, 1, [...c, ...d], 0, 1);
+
+test("random segment pairs", () => {
+  const pairs = golden("segment_pairs.json");
+  assert.ok(pairs.length >= 100);
+  for (const pair of pairs) {
+    assert.ok(Math.abs(ofPair(pair) - Number(pair.gli)) < 1e-13, `${pair.id}: ${ofPair(pair)}`);
+  }
+});
+
+test("degenerate segment pairs", () => {
+  const pairs = golden("degenerate_pairs.json");
+  assert.ok(pairs.length >= 20);
+  for (const pair of pairs) {
+    const value = pair.touching ? 0 : Number(pair.gli);
+    assert.ok(Math.abs(ofPair(pair) - value) <= Number(pair.tol_abs ?? 1e-12), `${pair.id}: ${ofPair(pair)}`);
+  }
+});
+
+test("tables and paths of whole bodies", () => {
+  const postures = golden("postures.json");
+  for (const posture of postures) {
+    assert.deepEqual(posture.parent_of_node, parentOf);
+    const table = gliTable(posture.A.flat(), posture.B.flat());
+    const rows = posture.gli_segments.flat().map(Number);
+    assert.equal(rows.length, numSegments ** 2);
+    rows.forEach((value, k) => assert.ok(Math.abs(table[k] - value) < 1e-12, `${posture.name} ${k}`));
+    const signs = (path) => pathSigns(...path.map((name) => posture.nodes.indexOf(name)));
+    assert.ok(posture.tangles.length > 200);
+    for (const { a, b, gli } of posture.tangles) {
+      assert.ok(Math.abs(pathGli(table, signs(a), signs(b)) - Number(gli)) < 1e-12, `${a} ${b}`);
+    }
+  }
+});
+
+test("a path is the sum of its segments, turned where it runs inward", () => {
+  const signs = pathSigns(findNode("left_hand"), findNode("right_elbow"));
+  const walked = nodeNames.slice(1).filter((_, k) => signs[k] !== 0);
+  assert.deepEqual(walked.sort(), [
+    "left_elbow", "left_hand", "left_shoulder", "left_wrist", "right_elbow", "right_shoulder"]);
+  assert.equal(signs[findNode("left_wrist") - 1], -1);
+  assert.equal(signs[findNode("right_elbow") - 1], 1);
+  const ones = new Float64Array(numSegments ** 2).fill(1);
+  assert.equal(pathGli(ones, signs, pathSigns(0, findNode("head_top"))), (2 - 4) * 4);
+});

@@ -1,0 +1,304 @@
+// report.html as a person meets it, in a browser:
+//   node report_page_test.mjs RUN_FOLDER
+// RUN_FOLDER is what a run has written: report.html and the scenes beside it, by which the players
+// are judged. Exit code 77 where the page, Chromium (RETARGET_CHROMIUM, else /usr/bin/chromium) or
+// playwright-core (in RETARGET_NODE_MODULES) is not there, or the page was built without players.
+import assert from "node:assert/strict";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { Glb } from "./glb.mjs";
+
+const folder = resolve(process.argv[2] ?? ".");
+const pagePath = join(folder, "report.html");
+const chromiumPath = process.env.RETARGET_CHROMIUM ?? "/usr/bin/chromium";
+
+function skip(reason) {
+  console.log(`skipped: ${reason}`);
+  process.exit(77);
+}
+function playwright() {
+  try {
+    const home = resolve(process.env.RETARGET_NODE_MODULES ?? "node_modules");
+    return createRequire(join(home, "here.js"))("playwright-core");
+  } catch (error) {
+    return skip(`playwright-core not found: ${error.message.split("\n")[0]}`);
+  }
+}
+if (!existsSync(pagePath)) skip(`no ${pagePath}`);
+if (!existsSync(chromiumPath)) skip(`no ${chromiumPath}`);
+const html = readFileSync(pagePath, "utf8");
+if (!html.includes('id="series"')) skip("the page was built without players");
+const { chromium } = playwright();
+
+const element = (id) => new RegExp(`<script type="[^"]*" id="${id}">([^]*?)</script>`).exec(html)?.[1];
+const report = JSON.parse(element("report"));
+const series = JSON.parse(element("series"));
+const scenes = { source: "source.glb", result: "scene.glb" };
+if (element("baseline-glb")) scenes.baseline = "baseline.glb";
+const glb = Object.fromEntries(
+  Object.entries(scenes).map(([which, file]) => [which, new Glb(join(folder, file))]));
+const last = series.frames - 1;
+const some = [0, 1, Math.floor(last / 3), Math.floor((2 * last) / 3), last];
+
+const kSoftwareGl = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+let browser;
+const scratch = mkdtempSync(join(tmpdir(), "retarget-page-"));
+before(async () => {
+  browser = await chromium.launch({ executablePath: chromiumPath, args: kSoftwareGl });
+});
+after(async () => {
+  await browser?.close();
+  rmSync(scratch, { recursive: true });
+});
+
+// An open page, and everything that it complained of or asked the network for.
+async function open({ path = pagePath, from = browser, ...options } = {}) {
+  const page = await from.newPage({ viewport: { width: 1280, height: 720 }, ...options });
+  const noise = [];
+  page.on("console", (message) => noise.push(`${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => noise.push(`error: ${error.message}`));
+  page.on("request", (request) => {
+    const url = request.url();
+    if (url !== pathToFileURL(path).href && !url.startsWith("data:")) noise.push(`request: ${url}`);
+  });
+  await page.goto(pathToFileURL(path).href);
+  await page.waitForFunction(() => window.retargetReport?.ready, null, { timeout: 60000 });
+  return { page, noise };
+}
+
+const seek = (page, frame) => page.evaluate((f) => window.retargetReport.seek(f), frame);
+const frameOf = (page) => page.evaluate(() => window.retargetReport.frame);
+const numberIn = (text) => Number(/-?\d+(\.\d+)?/.exec(text)[0]);
+const pixels = async (page) => {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return page.evaluate(() => document.querySelector("canvas.viewer").toDataURL());
+};
+
+// Every node of every player stands where the written scene has it at the page's frame.
+async function assertPlayersStandAt(page, frame) {
+  assert.equal(await frameOf(page), frame);
+  for (const [which, scene] of Object.entries(glb)) {
+    const names = scene.names();
+    assert.equal(names.length, 42);
+    const got = await page.evaluate(
+      ([which_, names_]) => names_.map((n) => window.retargetReport.playerNodePosition(which_, n)),
+      [which, names]);
+    names.forEach((name, k) => {
+      const expected = scene.position(name, frame);
+      const error = Math.hypot(...expected.map((x, c) => x - got[k][c]));
+      assert.ok(error < 1e-5, `${which} ${name}, frame ${frame}: ${error} m off`);
+    });
+  }
+}
+
+test("opens fast, small, quietly and without network", async () => {
+  assert.ok(statSync(pagePath).size < 4e6, `${statSync(pagePath).size} bytes`);
+  const times = [];
+  for (let k = 0; k < 5 && !(Math.min(...times) < 3000); ++k) {
+    const { page, noise } = await open();
+    times.push(await page.evaluate(() => window.retargetReport.readyMs));
+    assert.deepEqual(noise, []);
+    await page.close();
+  }
+  console.log(`ready after ${times.map(Math.round)} ms`);
+  assert.ok(Math.min(...times) < 3000, `ready after ${times} ms`);
+});
+
+test("says what the report says", async () => {
+  const { page } = await open();
+  assert.equal(await page.textContent("h1"), report.verdict[0]);
+  const missed = report.requirements.filter((r) => !r.met).length;
+  assert.equal(await page.locator("tr.missed").count(), missed);
+  assert.equal(await page.locator("header.missed").count(), missed > 0 ? 1 : 0);
+  assert.equal(await page.locator("tr[data-tag]").count(), report.tangles.length);
+  await page.close();
+});
+
+test("players show the frame that the page says", async () => {
+  const { page, noise } = await open();
+  for (const frame of some) {
+    await seek(page, frame);
+    assert.match(await page.textContent(".counter"), new RegExp(`^frame ${frame} /`));
+    await assertPlayersStandAt(page, frame);
+    for (const which of Object.keys(glb)) {
+      for (let tag = 0; tag < report.tangles.length; ++tag) {
+        const gli = await page.evaluate(([w, k]) => window.retargetReport.playerTagGli(w, k), [which, tag]);
+        assert.ok(Math.abs(gli - series[which].tangles[tag][frame]) < 1e-3, `${which} tag ${tag}: ${gli}`);
+      }
+    }
+  }
+  assert.deepEqual(noise, []);
+  await page.close();
+});
+
+test("plays, pauses and steps by keyboard", async () => {
+  const { page, noise } = await open();
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => window.retargetReport.frame > 2, null, { timeout: 20000 });
+  assert.equal(await page.textContent(".play"), "Pause");
+  await page.keyboard.press("Space");
+  const stopped = await frameOf(page);
+  await page.waitForTimeout(200);
+  assert.equal(await frameOf(page), stopped);
+  await seek(page, 5);
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await frameOf(page), 6);
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("ArrowLeft");
+  await assertPlayersStandAt(page, 4);
+  await page.keyboard.press("Tab");
+  const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+  assert.equal(outline, "solid");
+  assert.deepEqual(noise, []);
+  await page.close();
+});
+
+test("scrubs by bar and by plot, with one cursor for all", async () => {
+  const { page, noise } = await open();
+  const bar = await page.locator(".scrub").boundingBox();
+  await page.mouse.click(bar.x + bar.width / 2, bar.y + bar.height / 2);
+  assert.ok(Math.abs((await frameOf(page)) - last / 2) <= 1);
+  const plots = page.locator(".plot:not(.wide) .u-over");
+  assert.ok((await plots.count()) >= 4);
+  for (const [index, part] of [[0, 0.25], [2, 0.75]]) {
+    await plots.nth(index).scrollIntoViewIfNeeded();
+    const box = await plots.nth(index).boundingBox();
+    await page.mouse.click(box.x + part * box.width, box.y + box.height * 0.6);
+    const frame = await frameOf(page);
+    assert.ok(Math.abs(frame - part * last) <= 1, `clicked at ${part}: frame ${frame}`);
+    await assertPlayersStandAt(page, frame);
+    await page.mouse.move(2, 2);
+    for (const playhead of await page.locator(".plot:not(.wide) .playhead").all()) {
+      const [head, over] = [await playhead.boundingBox(), await playhead.locator("..").boundingBox()];
+      assert.ok(Math.abs(head.x - over.x - (frame / last) * over.width) < 2);
+    }
+  }
+  const strip = page.locator(".strip canvas").first();
+  await strip.scrollIntoViewIfNeeded();
+  const box = await strip.boundingBox();
+  await page.mouse.click(box.x + box.width - 7, box.y + box.height / 2);
+  assert.equal(await frameOf(page), last);
+  assert.deepEqual(noise, []);
+  await page.close();
+});
+
+test("plots say the series' values", async () => {
+  const { page } = await open();
+  const frame = some[2];
+  await seek(page, frame);
+  const value = async (title, line) => numberIn(
+    await page.locator(`figure[data-plot="${title}"] .key span`, { hasText: line }).locator("b").textContent());
+  for (const which of ["source", "result"]) {
+    const s = series[which];
+    assert.ok(Math.abs((await value("Tag 1: s GLI", which)) - s.tangles[0][frame]) <= 0.0051);
+    assert.ok(Math.abs((await value("Penetration between the bodies", which)) - s.penetration_cm[frame]) <= 0.0051);
+    const speed = Math.max(s.foot_speed_cm_s.a[frame], s.foot_speed_cm_s.b[frame]);
+    assert.ok(Math.abs((await value("Speed of planted feet", which)) - speed) <= 0.051);
+  }
+  await page.close();
+});
+
+test("a tag's row and button show it on the bodies; the heat map colours them", async () => {
+  const { page, noise } = await open();
+  await page.mouse.move(640, 5);
+  const plain = await pixels(page);
+  await page.hover(".tag >> nth=0");
+  const tagged = await pixels(page);
+  assert.notEqual(tagged, plain);
+  await page.mouse.move(640, 5);
+  assert.equal(await pixels(page), plain);
+  const heat = page.getByLabel("GLI heat map");
+  await heat.check();
+  const hot = await pixels(page);
+  assert.notEqual(hot, plain);
+  assert.ok(await page.locator("#transport .legend").isVisible());
+  await heat.uncheck();
+  assert.equal(await pixels(page), plain);
+  await page.locator("tr[data-tag='0']").focus();
+  const small = await pixels(page); // scrolled: the players are smaller now
+  await page.evaluate(() => document.activeElement.blur());
+  assert.notEqual(await pixels(page), small);
+  assert.deepEqual(noise, []);
+  await page.close();
+});
+
+test("frames in tables are jumps", async () => {
+  const { page } = await open();
+  const jumps = page.locator(".cards .jump");
+  assert.ok((await jumps.count()) > 0);
+  const frame = numberIn(await jumps.last().textContent());
+  await seek(page, frame === 0 ? 1 : 0);
+  await jumps.last().click();
+  await assertPlayersStandAt(page, frame);
+  await page.close();
+});
+
+test("without a baseline a sentence stands in its place", async () => {
+  const path = join(scratch, "no_baseline.html");
+  const without = { ...series, baseline: null };
+  writeFileSync(path, html
+    .replace(element("series"), () => JSON.stringify(without))
+    .replace(/<script type="text\/plain" id="baseline-glb">[^]*?<\/script>/, ""));
+  const { page, noise } = await open({ path });
+  assert.ok((await page.textContent(".panel[data-variant=baseline] .absent")).length > 20);
+  await seek(page, 3);
+  const [got, expected] = [
+    await page.evaluate(() => window.retargetReport.playerNodePosition("result", "a/left_wrist")),
+    glb.result.position("a/left_wrist", 3)];
+  assert.ok(Math.hypot(...expected.map((x, c) => x - got[c])) < 1e-5);
+  assert.deepEqual(noise, []);
+  await page.close();
+});
+
+test("without WebGL the plots and tables work and the page says so", async () => {
+  const plain = await chromium.launch({ executablePath: chromiumPath, args: ["--no-sandbox", "--disable-3d-apis"] });
+  try {
+    const { page, noise } = await open({ from: plain });
+    assert.match(await page.textContent("#panels > .absent"), /no WebGL/);
+    const over = page.locator(".plot:not(.wide) .u-over").first();
+    await over.scrollIntoViewIfNeeded();
+    const box = await over.boundingBox();
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    assert.ok(Math.abs((await frameOf(page)) - last / 2) <= 1);
+    assert.ok(await page.locator(".cards table").first().isVisible());
+    assert.deepEqual(noise.filter((line) => !/WebGL/.test(line)), []);
+  } finally {
+    await plain.close();
+  }
+});
+
+test("prints in light colours, without controls, with whole tables", async () => {
+  const { page } = await open({ colorScheme: "dark" });
+  const colour = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  assert.notEqual(await colour(), "rgb(255, 255, 255)");
+  await page.emulateMedia({ media: "print" });
+  await page.waitForFunction(() => document.querySelector("details").open);
+  assert.equal(await colour(), "rgb(255, 255, 255)");
+  assert.equal(await page.locator("#transport").isVisible(), false);
+  assert.ok(await page.locator(".settings").isVisible());
+  const cut = await page.evaluate(() => [...document.querySelectorAll(".card")]
+    .filter((card) => card.scrollHeight > card.clientHeight + 1).length);
+  assert.equal(cut, 0);
+  await page.emulateMedia({ media: "screen" });
+  await page.waitForFunction(() => !document.querySelector("details").open);
+  await page.close();
+});
+
+test("fits a laptop and a narrow window", async () => {
+  const { page } = await open();
+  for (const width of [1280, 1024, 640]) {
+    await page.setViewportSize({ width, height: 720 });
+    await page.waitForTimeout(100);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wide <= 0, `${wide} px too wide at ${width}`);
+  }
+  await page.setViewportSize({ width: 1280, height: 720 });
+  await page.evaluate(() => scrollTo(0, 0));
+  const stage = await page.locator("#transport .scrubber").boundingBox();
+  assert.ok(stage.y + stage.height < 720, "the scrub bar is on the first screen");
+  await page.close();
+});
