@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "model/so3.h"
 #include "solver/terms/ground.h"
 #include "tools/pose_mirror.h"
+#include "tools/pose_say.h"
 
 namespace retarget {
 
@@ -165,57 +165,9 @@ class Edit {
     Moved(op.figure);
   }
 
-  void operator()(const AddHold& op) { posture_.holds.push_back(HoldOf(op.hold)); }
-  void operator()(const EditHold& op) {
-    CheckHold(op.index);
-    posture_.holds[op.index] = HoldOf(op.hold);
-  }
-  void operator()(const RemoveHold& op) {
-    CheckHold(op.index);
-    posture_.holds.erase(posture_.holds.begin() + op.index);
-  }
-  void operator()(const SetSupports& op) {
-    for (const int n : op.nodes) CheckNode(posture_, op.figure, n);
-    CheckFigure(op.figure);
-    if (std::set<int>(op.nodes.begin(), op.nodes.end()).size() != op.nodes.size()) {
-      throw InputError("supports: expected every node once");
-    }
-    posture_.supports[op.figure] = op.nodes;
-  }
-  void operator()(const SetRootLeader& op) {
-    CheckFigure(op.figure);
-    if (op.leader == RootLeader::kPartner && posture_.root[1 - op.figure] == RootLeader::kPartner) {
-      throw InputError("root: at most one figure may follow its partner");
-    }
-    posture_.root[op.figure] = op.leader;
-  }
-  void operator()(const SetTangles& op) {
-    for (const TangleRequest& tangle : op.tangles) {
-      for (int f = 0; f < 2; ++f) {
-        const Path& path = f == 0 ? tangle.a : tangle.b;
-        CheckNode(posture_, f, path.from);
-        CheckNode(posture_, f, path.to);
-        if (path.from >= path.to) {
-          throw InputError("tangles: expected paths between two nodes, the lower index first");
-        }
-      }
-    }
-    posture_.tangles = op.tangles;
-  }
-  void operator()(const SetName& op) { posture_.name = op.name; }
-  void operator()(const SetDescription& op) { posture_.description = op.description; }
-  void operator()(const SetTags& op) { posture_.tags = op.tags; }
-  void operator()(const SetPhoto& op) { posture_.photo = op.photo; }
-  void operator()(const SetCamera& op) {
-    if (op.camera) {
-      CheckPlace(op.camera->eye, "camera");
-      CheckPlace(op.camera->target, "camera");
-      CheckDirection(op.camera->target - op.camera->eye);
-      if (!(op.camera->fov_deg >= 1 && op.camera->fov_deg <= 179)) {
-        throw InputError("camera: expected a field of view from 1 to 179 degrees");
-      }
-    }
-    posture_.camera = op.camera;
+  template <typename Said>
+  void operator()(const Said& op) {
+    Say(op, &posture_);
   }
 
  private:
@@ -241,39 +193,6 @@ class Edit {
           fmt::format("joint {}: expected 0 to {}", link, posture_.body[figure].num_links() - 1));
     }
     return posture_.pose[figure].rotation[link];
-  }
-
-  void CheckHold(int index) const {
-    const int holds = static_cast<int>(posture_.holds.size());
-    if (index < 0 || index >= holds) {
-      throw InputError(fmt::format("hold {}: the posture has {} holds", index + 1, holds));
-    }
-  }
-
-  Hold HoldOf(const HoldRequest& request) const {
-    CheckNode(posture_, request.from.figure, request.from.node);
-    CheckPlace(request.from.offset, "offset");
-    const bool world = request.to_figure == kWorld;
-    if (!world) CheckNode(posture_, request.to_figure, request.to_node);
-    if (request.from.figure == request.to_figure && request.from.node == request.to_node) {
-      throw InputError("hold: expected two different points, found the same node twice");
-    }
-    const std::array<PosedBody, 2> posed = PosedFigures(posture_);
-    const auto rotation = [&](int figure, int node) {
-      return posed[figure].rotation[posture_.body[figure].nodes[node].link];
-    };
-    Hold hold;
-    hold.from = request.from;
-    hold.to = {request.to_figure, world ? 0 : request.to_node, Vec3::Zero()};
-    hold.rotation = request.rotation;
-    const Mat3 to = world ? Mat3(Mat3::Identity()) : rotation(request.to_figure, request.to_node);
-    const Vec3 origin = world ? Vec3(Vec3::Zero()) : posed[request.to_figure].node[request.to_node];
-    hold.to.offset = request.to_offset.value_or(
-        to.transpose() * (HoldPosition(hold.from, posture_.body, posed) - origin));
-    CheckPlace(hold.to.offset, "offset");
-    const Mat3 relative = to.transpose() * rotation(hold.from.figure, hold.from.node);
-    if (hold.rotation) hold.relative_rotation = Quat(relative).normalized();
-    return hold;
   }
 
   PoseState out_;
