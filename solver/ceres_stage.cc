@@ -134,7 +134,8 @@ class TermCostFunction : public ceres::CostFunction {
       const int slot = own_slot ? static_cast<int>(k) : kept;
       if (own_slot) residuals[slot] = rows.residual()[row];
       if (jacobians) {
-        AddRow(rows, row, slot, own_slot ? 1 : rows.residual()[row] / rest, jacobians);
+        AddRow(rows, row, slot, own_slot ? 1 : rows.residual()[row] / std::max(rest, 1e-300),
+               jacobians);
       }
     }
     if (kept < rows.num_rows()) residuals[kept] = rest;

@@ -32,20 +32,21 @@ Problem::Problem(const Scene& scene, const Settings& settings)
       smoothness_(scene, settings),
       natural_smoothness_(scene, WithUnitSmoothness(settings)) {
   const Weights& w = settings.weights;
-  const auto add = [&](std::unique_ptr<Term> term, double weight) {
-    terms_.push_back(std::move(term));
-    weight_.push_back(weight);
-  };
-  add(std::make_unique<PoseTracking>(scene, settings.joint_weights), w.pose_tracking);
-  add(std::make_unique<RootTracking>(scene), w.root_tracking);
-  add(std::make_unique<FootLock>(scene), w.foot_lock);
-  add(std::make_unique<HoldTerm>(), w.hold);
-  add(std::make_unique<Penetration>(), w.penetration);
-  add(std::make_unique<SelfPenetration>(scene), w.self_penetration);
-  add(std::make_unique<Ground>(scene), w.ground);
-  add(std::make_unique<TangleTerm>(scene), w.tangle);
-  add(std::make_unique<JointLimitTerm>(), w.joint_limit);
-  add(std::make_unique<RigTurn>(), w.rig_turn);
+  Add(std::make_unique<PoseTracking>(scene, settings.joint_weights), w.pose_tracking);
+  Add(std::make_unique<RootTracking>(scene), w.root_tracking);
+  Add(std::make_unique<FootLock>(scene), w.foot_lock);
+  Add(std::make_unique<HoldTerm>(), w.hold);
+  Add(std::make_unique<Penetration>(), w.penetration);
+  Add(std::make_unique<SelfPenetration>(scene), w.self_penetration);
+  Add(std::make_unique<Ground>(scene), w.ground);
+  Add(std::make_unique<TangleTerm>(scene), w.tangle);
+  Add(std::make_unique<JointLimitTerm>(), w.joint_limit);
+  Add(std::make_unique<RigTurn>(), w.rig_turn);
+}
+
+void Problem::Add(std::unique_ptr<Term> term, double weight) {
+  terms_.push_back(std::move(term));
+  weight_.push_back(weight);
 }
 
 double Problem::WeightOf(const Term& term) const {

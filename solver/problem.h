@@ -24,6 +24,8 @@ struct TermCost {
 class Problem {
  public:
   Problem(const Scene& scene, const Settings& settings);
+  // One more term, after those of the table.
+  void Add(std::unique_ptr<Term> term, double weight);
 
   const Scene& scene() const { return *scene_; }
   const Settings& settings() const { return settings_; }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "model/template_posture.h"
 #include "tools/load_clip.h"
 
 namespace retarget {
@@ -51,6 +52,20 @@ struct FromClipsOptions {
   bool force = false;
 };
 int RunTemplateFromClips(const FromClipsOptions& options);
+TemplatePosture PostureFromClips(const FromClipsOptions& options);
+
+// `retarget pose`: what to start from, then operations in the order of the command line.
+struct PoseCommandOptions {
+  std::string template_path;  // empty: T-poses, or two clips
+  std::optional<FromClipsOptions> from_clips;
+  struct Step {
+    std::string name, value;  // of the option, without dashes
+  };
+  std::vector<Step> steps;
+  std::string out;
+  bool json = false, force = false;
+};
+int RunPose(const PoseCommandOptions& options);
 int RunRender(const std::string& folder, const std::string& out, bool force);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.

@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 
 #include "io/recognise.h"
 #include "io/settings_file.h"
 #include "tools/commands.h"
+#include "tools/pose_words.h"
 #include "tools/version.h"
 
 namespace retarget {
@@ -67,6 +69,7 @@ void AddClipOptions(CLI::App* app, ClipOptions* clip, const std::string& figure,
 struct CommandLine {
   RetargetOptions retarget;
   FromClipsOptions from_clips;
+  PoseCommandOptions pose;
   ClipOptions map_clip;
   std::string folder, file, config, check, picture;
   std::vector<std::string> set, clips, folders;
@@ -79,6 +82,7 @@ struct CommandLine {
     AddRetarget(app);
     AddTools(app);
     AddTemplate(app);
+    AddPose(app);
   }
 
   void AddRetarget(CLI::App* app) {
@@ -192,6 +196,58 @@ struct CommandLine {
     for (int f = 0; f < 2; ++f) from_clips.clip[f].path = clips[f];
     if (from_clips.name.empty()) from_clips.name = "from clips";
     return RunTemplateFromClips(from_clips);
+  }
+
+  void AddPose(CLI::App* app) {
+    CLI::App* posing = app->add_subcommand(
+        "pose", "pose two figures: operations one after the other, as given (docs/pose.md)");
+    CLI::Option* start =
+        posing->add_option("file", pose.template_path, "template to start from (YAML)");
+    CLI::Option* rest =
+        posing->add_flag("--rest")->description("start from two T-poses")->excludes(start);
+    posing->add_option("--from-clips", clips, "start from two clips that share a world")
+        ->expected(2)
+        ->excludes(start)
+        ->excludes(rest);
+    posing->add_option("--frame", from_clips.frame, "frame of both clips, from 0");
+    posing->add_option("--out", pose.out, "template to write (YAML)");
+    posing->add_flag("--json", pose.json, "print tangles, overlaps and warnings as JSON");
+    posing->add_flag("--force", pose.force, "overwrite the file");
+    AddClipOptions(posing, &from_clips.clip[0], "a", false);
+    AddClipOptions(posing, &from_clips.clip[1], "b", false);
+    for (const PoseWord& word : PoseWords()) {
+      const std::string name = std::string("--") + word.name;
+      CLI::Option* option = *word.value
+                                ? posing->add_option(name)->type_name(word.value)->type_size(1)
+                                : posing->add_flag(name);
+      option->description(word.help)->group("Operations");
+      option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+    posing->callback([this, posing, rest] {
+      if (pose.template_path.empty() && clips.empty() && !rest->count()) {
+        throw InputError("pose: expected a template, --rest or --from-clips A B");
+      }
+      if (!clips.empty()) {
+        for (int f = 0; f < 2; ++f) from_clips.clip[f].path = clips[f];
+        from_clips.name = "from clips";
+        pose.from_clips = from_clips;
+      }
+      pose.steps = StepsInOrder(*posing);
+      code = RunPose(pose);
+    });
+  }
+
+  // What was given of the posing options, in the order of the command line.
+  static std::vector<PoseCommandOptions::Step> StepsInOrder(const CLI::App& posing) {
+    std::vector<PoseCommandOptions::Step> steps;
+    std::map<const CLI::Option*, size_t> used;
+    for (const CLI::Option* option : posing.parse_order()) {
+      if (option->get_group() != "Operations") continue;
+      const bool flag = option->get_expected_min() == 0;
+      const std::string value = flag ? "" : option->results().at(used[option]++);
+      steps.push_back({option->get_lnames().front(), value});
+    }
+    return steps;
   }
 
   void RequireScene() const {

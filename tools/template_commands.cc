@@ -12,15 +12,10 @@
 #include "tools/commands.h"
 #include "tools/files.h"
 #include "tools/report.h"
+#include "tools/template_check.h"
 
 namespace retarget {
 namespace {
-
-Json TangleJson(const Body& a, const Body& b, const Tangle& t) {
-  return {{"a", {a.nodes[t.a.from].name, a.nodes[t.a.to].name}},
-          {"b", {b.nodes[t.b.from].name, b.nodes[t.b.to].name}},
-          {"gli", t.gli}};
-}
 
 // Node positions as JSON, {"A": [[x, y, z] x 21], "B": ...}.
 std::array<std::vector<Vec3>, 2> PositionsFromJson(const Json& json, const std::string& path,
@@ -82,11 +77,6 @@ Found FindIn(const std::string& path) {
   return found;
 }
 
-std::string TangleLine(const Body& a, const Body& b, const Tangle& t) {
-  return fmt::format("a ({}, {}) x b ({}, {})", a.nodes[t.a.from].name, a.nodes[t.a.to].name,
-                     b.nodes[t.b.from].name, b.nodes[t.b.to].name);
-}
-
 }  // namespace
 
 int RunTangles(const std::string& path, bool json) {
@@ -118,32 +108,13 @@ int RunTangles(const std::string& path, bool json) {
 
 int RunTemplateCheck(const std::string& path, bool json) {
   const TemplatePosture posture = ReadTemplate(path);
-  const Settings settings;
-  const TemplateTangles tangles = FindTemplateTangles(posture, settings.tangle);
-  Scene scene;
-  scene.body = posture.body;
-  scene.tangles = HoldTangles(tangles.tags, posture, settings.tangle.margin);
-  scene.holds = posture.holds;
-  for (int f = 0; f < 2; ++f) scene.source[f].frames = {posture.pose[f]};
-  const MeasureSubject subject = SubjectOf(scene);
-  const MotionView view = ViewOf(scene.body, scene.source);
-  const Metrics metrics = Measure(subject, view, view);
-  const std::vector<RequirementCheck> checks =
-      CheckRequirements(subject, metrics, settings.requirements);
-  std::vector<std::string> warnings;
-  for (const Tag& tag : tangles.tags) {
-    const std::string line = TangleLine(scene.body[0], scene.body[1], tag.tangle);
-    if (std::abs(tag.tangle.gli) < 0.6) {
-      warnings.push_back(
-          fmt::format("{} is weak: |GLI| {:.2f} is under 0.6", line, std::abs(tag.tangle.gli)));
-    }
-    if (tag.rho < 0.1) {
-      warnings.push_back(
-          fmt::format("{} is easily lost: robustness radius {:.2f} is under 0.1", line, tag.rho));
-    }
-  }
-  if (tangles.tags.empty()) warnings.push_back("nothing is tangled in this posture");
-  const bool met = AllMet(checks);
+  const TemplateCheck check = CheckTemplate(posture);
+  const TemplateTangles& tangles = check.tangles;
+  const Metrics& metrics = check.metrics;
+  const std::vector<RequirementCheck>& checks = check.checks;
+  const std::vector<std::string>& warnings = check.warnings;
+  const std::array<Body, 2>& bodies = posture.body;
+  const bool met = check.met();
   if (json) {
     Json out = {{"name", posture.name},
                 {"requirements_met", met},
@@ -151,7 +122,7 @@ int RunTemplateCheck(const std::string& path, bool json) {
                 {"tags", Json::array()},
                 {"warnings", warnings}};
     for (const Tag& tag : tangles.tags) {
-      out["tags"].push_back(TangleJson(scene.body[0], scene.body[1], tag.tangle));
+      out["tags"].push_back(TangleJson(bodies[0], bodies[1], tag.tangle));
       out["tags"].back()["rho"] = tag.rho;
     }
     fmt::print("{}\n", out.dump(1));
@@ -167,8 +138,8 @@ int RunTemplateCheck(const std::string& path, bool json) {
         100 * metrics.figure[f].floor_m, 100 * metrics.figure[f].self_penetration_m);
   }
   for (const Tag& tag : tangles.tags) {
-    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n",
-               TangleLine(scene.body[0], scene.body[1], tag.tangle), tag.tangle.gli, tag.rho);
+    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n", TangleLine(bodies[0], bodies[1], tag.tangle),
+               tag.tangle.gli, tag.rho);
   }
   for (size_t k = 0; k < metrics.hold_m.size(); ++k) {
     fmt::print("hold {}: {:.1f} cm\n", k + 1, 100 * metrics.hold_m[k]);
@@ -183,7 +154,7 @@ int RunTemplateCheck(const std::string& path, bool json) {
   return met ? kDone : kMissed;
 }
 
-int RunTemplateFromClips(const FromClipsOptions& options) {
+TemplatePosture PostureFromClips(const FromClipsOptions& options) {
   TemplatePosture posture;
   posture.name = options.name;
   for (int f = 0; f < 2; ++f) {
@@ -200,6 +171,11 @@ int RunTemplateFromClips(const FromClipsOptions& options) {
   }
   posture.description = fmt::format("frame {} of {} and {}", options.frame, options.clip[0].path,
                                     options.clip[1].path);
+  return posture;
+}
+
+int RunTemplateFromClips(const FromClipsOptions& options) {
+  const TemplatePosture posture = PostureFromClips(options);
   const std::string text = FormatTemplate(posture);
   ParseTemplate(text, options.out);  // what is written can be read
   WriteFile(options.out, text, options.force);

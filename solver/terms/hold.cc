@@ -34,17 +34,19 @@ void EvaluateRotation(const Frame& frame, const Hold& hold, Rows* rows) {
 
 }  // namespace
 
-void HoldTerm::Evaluate(const Frame& frame, Rows* rows) const {
-  for (const Hold& hold : frame.scene->holds) {
-    const Vec3 from = HoldPosition(hold.from, frame.scene->body, frame.posed);
-    const Vec3 to = HoldPosition(hold.to, frame.scene->body, frame.posed);
-    for (int k = 0; k < 3; ++k) {
-      const int row = rows->Add(from[k] - to[k]);
-      AddHeldPoint(frame, hold.from, from, row, Vec3::Unit(k), rows);
-      AddHeldPoint(frame, hold.to, to, row, -Vec3::Unit(k), rows);
-    }
-    if (hold.rotation) EvaluateRotation(frame, hold, rows);
+void AddHoldRows(const Frame& frame, const Hold& hold, Rows* rows) {
+  const Vec3 from = HoldPosition(hold.from, frame.scene->body, frame.posed);
+  const Vec3 to = HoldPosition(hold.to, frame.scene->body, frame.posed);
+  for (int k = 0; k < 3; ++k) {
+    const int row = rows->Add(from[k] - to[k]);
+    AddHeldPoint(frame, hold.from, from, row, Vec3::Unit(k), rows);
+    AddHeldPoint(frame, hold.to, to, row, -Vec3::Unit(k), rows);
   }
+  if (hold.rotation) EvaluateRotation(frame, hold, rows);
+}
+
+void HoldTerm::Evaluate(const Frame& frame, Rows* rows) const {
+  for (const Hold& hold : frame.scene->holds) AddHoldRows(frame, hold, rows);
 }
 
 }  // namespace retarget

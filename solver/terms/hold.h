@@ -9,6 +9,9 @@
 
 namespace retarget {
 
+// Adds the rows of one hold.
+void AddHoldRows(const Frame& frame, const Hold& hold, Rows* rows);
+
 class HoldTerm : public Term {
  public:
   const char* name() const override { return "hold"; }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "solver/problem.h"
+#include "solver/terms/ray.h"
 #include "tests/solver/scene_fixture.h"
 
 namespace retarget {
@@ -124,6 +125,34 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
     EXPECT_GT(c.nonzero, 60) << term;
   }
   EXPECT_EQ(checked.size(), 10u);
+}
+
+TEST(Terms, RaysHaveTheirJacobianAndMeasureTheDistance) {
+  const Scene scene = SmallScene(4, 0.2);
+  std::vector<NodeRay> rays;
+  for (const int f : {0, 1}) {
+    for (const int node : {0, 4, 8, 12, 20}) {
+      rays.push_back({f, node, Vec3(0.3 * f, 1, 2), Vec3(0.1 * node, -0.2, -0.5 - f)});
+    }
+  }
+  const RayTerm term(rays);
+  Checked checked;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    const Unknowns u = RandomEdit(scene, seed == 0 ? 0 : 0.25, seed);
+    for (int t = 0; t < scene.num_frames(); ++t) {
+      CheckFrame(term, scene, u, t, &checked);
+      Frame frame;
+      frame.Set(scene, u, t, false);
+      const std::vector<double> r = Residuals(term, scene, u, t);
+      for (size_t k = 0; k < rays.size(); ++k) {
+        const Vec3 from = frame.posed[rays[k].figure].node[rays[k].node] - rays[k].origin;
+        const double distance = from.cross(rays[k].direction).norm() / rays[k].direction.norm();
+        EXPECT_NEAR(std::hypot(r[2 * k], r[2 * k + 1]), distance, 1e-12);
+      }
+    }
+  }
+  EXPECT_EQ(checked.rows, 6 * 4 * 20);
+  EXPECT_GT(checked.nonzero, 1000);
 }
 
 TEST(Terms, SmoothnessGradientAndStencilMatchTheCost) {

@@ -30,3 +30,6 @@ python3 tools/bench/summary.py kernels "$build/kernels.json"
 
 echo "== solves"
 "$build/tools/bench/solve_bench" | tee "$build/solve.txt"
+
+echo "== posing"
+"$build/tools/bench/pose_bench" | tee "$build/pose.txt"

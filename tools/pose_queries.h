@@ -1,0 +1,35 @@
+// What is to be seen of a posture while it is made.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/pose_solve.h"
+#include "tools/report.h"
+
+namespace retarget {
+
+// Two capsules that overlap, of one figure or of both.
+struct LimbOverlap {
+  LimbPair limbs;
+  double depth = 0;           // m
+  Vec3 place = Vec3::Zero();  // m, in the middle of what both fill
+};
+// Deepest first; those within a figure over pairs at least two segments apart.
+std::vector<LimbOverlap> OverlapsOf(const TemplatePosture& posture);
+
+// |GLI| of every segment of a against every segment of b (turns); entry (i, j) belongs to the
+// segments that end at nodes i + 1 and j + 1.
+MatX GliTableOf(const TemplatePosture& posture);
+
+// How far a joint lies beyond each of its limits (rad; negative: within).
+std::vector<double> BeyondLimits(const TemplatePosture& posture, int figure, int link);
+
+// The checks of `template --check`, and where bodies overlap by over 1 cm.
+std::vector<std::string> WarningsOf(const TemplatePosture& posture);
+
+// All of it: tags {a, b, gli, to_half, rho, group_size}, literal_tangles, overlaps, requirements,
+// warnings, gli_table, joints beyond their limits.
+Json QueriesJson(const TemplatePosture& posture);
+
+}  // namespace retarget

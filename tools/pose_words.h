@@ -1,0 +1,26 @@
+// Operations as words of the command line: an option's name and its value.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tools/pose_state.h"
+
+namespace retarget {
+
+// The options that do something to a posture, for the command line's table of contents.
+struct PoseWord {
+  const char* name;   // "drag"
+  const char* value;  // how its value reads; empty: takes none
+  const char* help;
+};
+const std::vector<PoseWord>& PoseWords();
+
+enum class HistoryStep { kUndo, kRedo };
+using PoseStep = std::variant<Operation, HistoryStep>;
+
+// Throws InputError: "--drag a/left_hnad=0,1,0: unknown node "left_hnad", did you mean ...".
+PoseStep ParsePoseStep(const std::string& name, const std::string& value, const PoseState& state);
+
+}  // namespace retarget
