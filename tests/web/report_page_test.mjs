@@ -70,6 +70,19 @@ async function open({ path = pagePath, from = browser, ...options } = {}) {
   return { page, noise };
 }
 
+// One page for the tests that leave it as they found it, scrolled up and at rest.
+let kept;
+async function usual() {
+  kept ??= await open();
+  await kept.page.bringToFront();
+  await kept.page.mouse.move(640, 5);
+  await kept.page.evaluate(() => {
+    document.activeElement.blur();
+    scrollTo(0, 0);
+  });
+  return kept;
+}
+
 const seek = (page, frame) => page.evaluate((f) => window.retargetReport.seek(f), frame);
 const frameOf = (page) => page.evaluate(() => window.retargetReport.frame);
 const numberIn = (text) => Number(/-?\d+(\.\d+)?/.exec(text)[0]);
@@ -98,30 +111,30 @@ async function assertPlayersStandAt(page, frame) {
 test("opens fast, small, quietly and without network", async () => {
   assert.ok(statSync(pagePath).size < 4e6, `${statSync(pagePath).size} bytes`);
   const times = [];
-  for (let k = 0; k < 5 && !(Math.min(...times) < 3000); ++k) {
+  // A machine that is busy with something else says nothing about the page.
+  const busy = () => loadavg()[0] > 1.5 * cpus().length;
+  for (let k = 0; k < (busy() ? 1 : 5) && !(Math.min(...times) < 3000); ++k) {
     const { page, noise } = await open();
     times.push(await page.evaluate(() => window.retargetReport.readyMs));
     assert.deepEqual(noise, []);
     await page.close();
   }
   console.log(`ready after ${times.map(Math.round)} ms`);
-  // A machine that is busy with something else says nothing about the page.
-  if (loadavg()[0] > 1.5 * cpus().length) return console.log("machine busy: not judged");
+  if (busy()) return console.log("machine busy: not judged");
   assert.ok(Math.min(...times) < 3000, `ready after ${times} ms`);
 });
 
 test("says what the report says", async () => {
-  const { page } = await open();
+  const { page } = await usual();
   assert.equal(await page.textContent("h1"), report.verdict[0]);
   const missed = report.requirements.filter((r) => !r.met).length;
   assert.equal(await page.locator("tr.missed").count(), missed);
   assert.equal(await page.locator("header.missed").count(), missed > 0 ? 1 : 0);
   assert.equal(await page.locator("tr[data-tag]").count(), report.tangles.length);
-  await page.close();
 });
 
 test("players show the frame that the page says", async () => {
-  const { page, noise } = await open();
+  const { page, noise } = await usual();
   for (const frame of some) {
     await seek(page, frame);
     assert.match(await page.textContent(".counter"), new RegExp(`^frame ${frame} /`));
@@ -134,11 +147,10 @@ test("players show the frame that the page says", async () => {
     }
   }
   assert.deepEqual(noise, []);
-  await page.close();
 });
 
 test("plays, pauses and steps by keyboard", async () => {
-  const { page, noise } = await open();
+  const { page, noise } = await usual();
   await page.keyboard.press("Space");
   await page.waitForFunction(() => window.retargetReport.frame > 2, null, { timeout: 20000 });
   assert.equal(await page.textContent(".play"), "Pause");
@@ -156,11 +168,10 @@ test("plays, pauses and steps by keyboard", async () => {
   const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
   assert.equal(outline, "solid");
   assert.deepEqual(noise, []);
-  await page.close();
 });
 
 test("scrubs by bar and by plot, with one cursor for all", async () => {
-  const { page, noise } = await open();
+  const { page, noise } = await usual();
   const bar = await page.locator(".scrub").boundingBox();
   await page.mouse.click(bar.x + bar.width / 2, bar.y + bar.height / 2);
   assert.ok(Math.abs((await frameOf(page)) - last / 2) <= 1);
@@ -185,11 +196,10 @@ test("scrubs by bar and by plot, with one cursor for all", async () => {
   await page.mouse.click(box.x + box.width - 7, box.y + box.height / 2);
   assert.equal(await frameOf(page), last);
   assert.deepEqual(noise, []);
-  await page.close();
 });
 
 test("plots say the series' values", async () => {
-  const { page } = await open();
+  const { page } = await usual();
   const frame = some[2];
   await seek(page, frame);
   const value = async (title, line) => numberIn(
@@ -201,11 +211,10 @@ test("plots say the series' values", async () => {
     const speed = Math.max(s.foot_speed_cm_s.a[frame], s.foot_speed_cm_s.b[frame]);
     assert.ok(Math.abs((await value("Speed of planted feet", which)) - speed) <= 0.051);
   }
-  await page.close();
 });
 
 test("a tag's row and button show it on the bodies; the heat map colours them", async () => {
-  const { page, noise } = await open();
+  const { page, noise } = await usual();
   await page.mouse.move(640, 5);
   const plain = await pixels(page);
   await page.hover(".tag >> nth=0");
@@ -225,18 +234,16 @@ test("a tag's row and button show it on the bodies; the heat map colours them", 
   await page.evaluate(() => document.activeElement.blur());
   assert.notEqual(await pixels(page), small);
   assert.deepEqual(noise, []);
-  await page.close();
 });
 
 test("frames in tables are jumps", async () => {
-  const { page } = await open();
+  const { page } = await usual();
   const jumps = page.locator(".cards .jump");
   assert.ok((await jumps.count()) > 0);
   const frame = numberIn(await jumps.last().textContent());
   await seek(page, frame === 0 ? 1 : 0);
   await jumps.last().click();
   await assertPlayersStandAt(page, frame);
-  await page.close();
 });
 
 test("without a baseline a sentence stands in its place", async () => {
