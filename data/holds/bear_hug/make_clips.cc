@@ -7,12 +7,12 @@
 // agree only roughly, as those of two actors would: each steps at his own times to his own spots.
 #include <cmath>
 #include <cstdio>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
-#include "data/holds/bear_hug/actor.h"
-#include "data/holds/bear_hug/gait.h"
+#include "data/actors/actor.h"
+#include "data/actors/gait.h"
+#include "data/actors/restless.h"
 
 namespace retarget {
 namespace {
@@ -20,31 +20,6 @@ namespace {
 constexpr double kFps = 30, kSeconds = 10;
 
 // --- What the actors do ---
-
-// Restless motion of about unit amplitude: five sines, the slower the larger, of frequencies spread
-// evenly in pitch from `low` to `high` (Hz). Seeds give independent motions.
-double Restless(double t, int seed, double low = 0.3, double high = 1.6) {
-  constexpr int kSines = 5;
-  constexpr double kGolden = 0.6180339887, kSilver = 0.4142135624;  // never in step
-  const auto fraction = [](double v) { return v - std::floor(v); };
-  double sum = 0, power = 0;
-  for (int k = 0; k < kSines; ++k) {
-    const double pitch = (k + fraction(seed * kGolden + k * kSilver)) / kSines;
-    const double frequency = low * std::pow(high / low, pitch);
-    const double amplitude = 1 / frequency;
-    const double phase = fraction(seed * kSilver + k * kGolden * kGolden);
-    sum += amplitude * std::sin(2 * kPi * (frequency * t + phase));
-    power += amplitude * amplitude;
-  }
-  return sum / std::sqrt(power);
-}
-
-// Sum of bumps of the given width (s) about the given instants.
-double Bursts(double t, double width, std::initializer_list<double> centres) {
-  double sum = 0;
-  for (const double centre : centres) sum += Bump((t - centre) / width + 0.5);
-  return sum;
-}
 
 Posture Standing(const Actor& actor, const Gait& gait, double t, double root_height) {
   Posture p;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "data/holds/bear_hug/gait.h"
+#include "data/actors/gait.h"
 #include "model/body.h"
 #include "model/so3.h"
 #include "model/types.h"
