@@ -30,6 +30,7 @@ struct RetargetOptions {
   double fps = 30, template_at = 0;
   int threads = -1;  // -1: as configured
   bool json = false, force = false;
+  bool quiet = false;  // says nothing of the result
 };
 int RunRetarget(const RetargetOptions& options);
 
@@ -66,6 +67,17 @@ struct PoseCommandOptions {
   bool json = false, force = false;
 };
 int RunPose(const PoseCommandOptions& options);
+// Runs every hold of the folders (template.yaml, clips a and b) with default settings into a folder
+// each, and writes an index page. The worst exit code of all.
+struct GalleryOptions {
+  std::vector<std::string> holds;  // folders of holds, or holds
+  std::string out = "gallery", config_path;
+  std::vector<std::string> set;
+  int threads = -1;
+  bool force = false;
+};
+int RunGallery(const GalleryOptions& options);
+
 int RunRender(const std::string& folder, const std::string& out, bool force);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.

@@ -70,6 +70,7 @@ struct CommandLine {
   RetargetOptions retarget;
   FromClipsOptions from_clips;
   PoseCommandOptions pose;
+  GalleryOptions gallery;
   ClipOptions map_clip;
   std::string folder, file, config, check, picture;
   std::vector<std::string> set, clips, folders;
@@ -136,6 +137,22 @@ struct CommandLine {
     compare->add_option("folders", folders, "what --out was, one or more")->required();
     compare->add_flag("--json", json);
     compare->callback([this] { code = RunCompare(folders, json); });
+
+    CLI::App* holds = app->add_subcommand("gallery", "run holds, and write a page that shows them");
+    holds
+        ->add_option("holds", gallery.holds,
+                     "folders with template.yaml, a.bvh and b.bvh, or folders of such")
+        ->default_str("data/holds");
+    holds->add_option("--out", gallery.out, "folder for the page and the runs")
+        ->capture_default_str();
+    holds->add_option("--config", gallery.config_path, "weights and settings (YAML)");
+    holds->add_option("--set", gallery.set, "one setting (repeatable)");
+    holds->add_option("--threads", gallery.threads, "0: all cores")->check(CLI::Range(0, 256));
+    holds->add_flag("--force", gallery.force, "overwrite files that no earlier run wrote");
+    holds->callback([this] {
+      if (gallery.holds.empty()) gallery.holds = {"data/holds"};
+      code = RunGallery(gallery);
+    });
 
     CLI::App* tangles =
         app->add_subcommand("tangles", "what is tangled in a template or in node positions");
