@@ -78,6 +78,16 @@ struct GalleryOptions {
 };
 int RunGallery(const GalleryOptions& options);
 
+// `retarget studio`: serves the posing page until it is interrupted.
+struct StudioOptions {
+  std::string template_path, photo_path;  // to begin with; empty: none
+  std::string library;                    // folder; empty: the shipped one and the user's own
+  std::array<ClipOptions, 2> clip;        // to try a posture on
+  int port = 0;                           // 0: any that is free
+  bool browser = true;                    // open the page
+};
+int RunStudio(const StudioOptions& options);
+
 int RunRender(const std::string& folder, const std::string& out, bool force);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.
