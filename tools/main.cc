@@ -149,13 +149,19 @@ struct CommandLine {
     AddClipOptions(map, &map_clip, "", false);
     CLI::Option* as_json = map->add_flag("--json", json);
     map->add_flag("--yaml", yaml, "print the map as a file to edit")->excludes(as_json);
-    map->callback([this] { code = RunMap(map_clip, json, yaml); });
+    map->callback([this] {
+      map_clip.any_animation = true;
+      code = RunMap(map_clip, json, yaml);
+    });
 
     CLI::App* inspect = app->add_subcommand("inspect", "what is in a motion or character file");
     inspect->add_option("file", map_clip.path, "BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
         ->required();
     inspect->add_flag("--json", json);
-    inspect->callback([this] { code = RunInspect(map_clip, json); });
+    inspect->callback([this] {
+      map_clip.any_animation = true;
+      code = RunInspect(map_clip, json);
+    });
 
     CLI::App* settings =
         app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");

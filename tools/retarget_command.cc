@@ -92,6 +92,7 @@ int RunRetarget(const RetargetOptions& options) {
   const Job job = LoadJob(options);
   OutputSet output(options.out, OutputNames(job), InputPaths(options), options.force);
   TellNotes(job);
+  if (options.show == "characters") CheckCharacters(job);
 
   // Fit the template, find tangles and contacts, place, start, solve.
   CatchInterrupts();
