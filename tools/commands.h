@@ -88,7 +88,8 @@ struct StudioOptions {
 };
 int RunStudio(const StudioOptions& options);
 
-int RunRender(const std::string& folder, const std::string& out, bool force);
+// Of a run's folder, or of a template's file.
+int RunRender(const std::string& path, const std::string& out, bool force);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.
 void CatchInterrupts();
