@@ -86,11 +86,11 @@ Figure Opponent(const Actor& actor, double t) {
   };
   const double left = pedal(0), right = pedal(0.45);
   PoseFreeLeg(actor, kLeft,
-              {Vec3(0.17 + 0.02 * r(61), -0.67 + 0.09 * left, -0.19 - 0.14 * left + 0.02 * r(62)),
+              {Vec3(0.17 + 0.02 * r(61), -0.65 + 0.13 * left, -0.20 - 0.20 * left + 0.02 * r(62)),
                Vec3(0.31, -0.17, 0.93), Vec3(0.2, -0.88 + 0.2 * left, -0.43)},
               &figure);
   PoseFreeLeg(actor, kRight,
-              {Vec3(0.035, -0.62 - 0.05 * right, -0.48 + 0.10 * right + 0.02 * r(63)),
+              {Vec3(0.035, -0.62 - 0.08 * right, -0.47 + 0.16 * right + 0.02 * r(63)),
                Vec3(0.2, -0.59, 0.78), Vec3(0.03, -0.7, -0.7 + 0.2 * right)},
               &figure);
   return figure;
