@@ -30,6 +30,7 @@ struct RetargetOptions {
   double fps = 30, template_at = 0;
   int threads = -1;  // -1: as configured
   bool json = false, force = false;
+  bool quiet = false;  // says nothing of the result
 };
 int RunRetarget(const RetargetOptions& options);
 
@@ -66,6 +67,27 @@ struct PoseCommandOptions {
   bool json = false, force = false;
 };
 int RunPose(const PoseCommandOptions& options);
+// Runs every hold of the folders (template.yaml, clips a and b) with default settings into a folder
+// each, and writes an index page. The worst exit code of all.
+struct GalleryOptions {
+  std::vector<std::string> holds;  // folders of holds, or holds
+  std::string out = "gallery", config_path;
+  std::vector<std::string> set;
+  int threads = -1;
+  bool force = false;
+};
+int RunGallery(const GalleryOptions& options);
+
+// `retarget studio`: serves the posing page until it is interrupted.
+struct StudioOptions {
+  std::string template_path, photo_path;  // to begin with; empty: none
+  std::string library;                    // folder; empty: the shipped one and the user's own
+  std::array<ClipOptions, 2> clip;        // to try a posture on
+  int port = 0;                           // 0: any that is free
+  bool browser = true;                    // open the page
+};
+int RunStudio(const StudioOptions& options);
+
 int RunRender(const std::string& folder, const std::string& out, bool force);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.

@@ -16,6 +16,9 @@ RETARGET_EMBED(retarget_report_css, RETARGET_REPORT_CSS);
 #ifdef RETARGET_REPORT_PAGE
 RETARGET_EMBED(retarget_report_page, RETARGET_REPORT_PAGE);
 #endif
+#ifdef RETARGET_STUDIO_PAGE
+RETARGET_EMBED(retarget_studio_page, RETARGET_STUDIO_PAGE);
+#endif
 
 namespace retarget {
 namespace {
@@ -29,6 +32,14 @@ std::string_view Between(const char* begin, const char* end) {
 std::string_view EmbeddedReportPage() {
 #ifdef RETARGET_REPORT_PAGE
   return Between(retarget_report_page_begin, retarget_report_page_end);
+#else
+  return {};
+#endif
+}
+
+std::string_view EmbeddedStudioPage() {
+#ifdef RETARGET_STUDIO_PAGE
+  return Between(retarget_studio_page_begin, retarget_studio_page_end);
 #else
   return {};
 #endif

@@ -9,6 +9,9 @@ namespace retarget {
 // program was built without it (RETARGET_STUDIO=OFF).
 std::string_view EmbeddedReportPage();
 
+// The built studio page; empty where the program was built without it.
+std::string_view EmbeddedStudioPage();
+
 // Style sheets of the pages, as written.
 std::string_view EmbeddedThemeCss();
 std::string_view EmbeddedReportCss();

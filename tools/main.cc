@@ -70,6 +70,8 @@ struct CommandLine {
   RetargetOptions retarget;
   FromClipsOptions from_clips;
   PoseCommandOptions pose;
+  GalleryOptions gallery;
+  StudioOptions studio;
   ClipOptions map_clip;
   std::string folder, file, config, check, picture;
   std::vector<std::string> set, clips, folders;
@@ -83,6 +85,7 @@ struct CommandLine {
     AddTools(app);
     AddTemplate(app);
     AddPose(app);
+    AddStudio(app);
   }
 
   void AddRetarget(CLI::App* app) {
@@ -137,6 +140,22 @@ struct CommandLine {
     compare->add_flag("--json", json);
     compare->callback([this] { code = RunCompare(folders, json); });
 
+    CLI::App* holds = app->add_subcommand("gallery", "run holds, and write a page that shows them");
+    holds
+        ->add_option("holds", gallery.holds,
+                     "folders with template.yaml, a.bvh and b.bvh, or folders of such")
+        ->default_str("data/holds");
+    holds->add_option("--out", gallery.out, "folder for the page and the runs")
+        ->capture_default_str();
+    holds->add_option("--config", gallery.config_path, "weights and settings (YAML)");
+    holds->add_option("--set", gallery.set, "one setting (repeatable)");
+    holds->add_option("--threads", gallery.threads, "0: all cores")->check(CLI::Range(0, 256));
+    holds->add_flag("--force", gallery.force, "overwrite files that no earlier run wrote");
+    holds->callback([this] {
+      if (gallery.holds.empty()) gallery.holds = {"data/holds"};
+      code = RunGallery(gallery);
+    });
+
     CLI::App* tangles =
         app->add_subcommand("tangles", "what is tangled in a template or in node positions");
     tangles->add_option("file", file, "template (YAML) or positions (JSON)")->required();
@@ -149,13 +168,19 @@ struct CommandLine {
     AddClipOptions(map, &map_clip, "", false);
     CLI::Option* as_json = map->add_flag("--json", json);
     map->add_flag("--yaml", yaml, "print the map as a file to edit")->excludes(as_json);
-    map->callback([this] { code = RunMap(map_clip, json, yaml); });
+    map->callback([this] {
+      map_clip.any_animation = true;
+      code = RunMap(map_clip, json, yaml);
+    });
 
     CLI::App* inspect = app->add_subcommand("inspect", "what is in a motion or character file");
     inspect->add_option("file", map_clip.path, "BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
         ->required();
     inspect->add_flag("--json", json);
-    inspect->callback([this] { code = RunInspect(map_clip, json); });
+    inspect->callback([this] {
+      map_clip.any_animation = true;
+      code = RunInspect(map_clip, json);
+    });
 
     CLI::App* settings =
         app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");
@@ -234,6 +259,26 @@ struct CommandLine {
       }
       pose.steps = StepsInOrder(*posing);
       code = RunPose(pose);
+    });
+  }
+
+  void AddStudio(CLI::App* app) {
+    CLI::App* page =
+        app->add_subcommand("studio", "pose two figures on a page in the browser (docs/studio.md)");
+    page->add_option("--template", studio.template_path, "template to open (YAML)");
+    page->add_option("--photo", studio.photo_path, "picture to pose over (PNG, JPEG, WebP)");
+    page->add_option("--library", studio.library,
+                     "folder of templates (default: the shipped ones and your own)");
+    page->add_option("--clip-a", studio.clip[0].path, "clip to try the posture on");
+    page->add_option("--clip-b", studio.clip[1].path, "clip to try the posture on");
+    page->add_option("--port", studio.port, "of 127.0.0.1; 0: any that is free")
+        ->check(CLI::Range(0, 65535));
+    page->add_flag("--no-browser,--print-url")->description("print the address only");
+    AddClipOptions(page, &studio.clip[0], "a", false);
+    AddClipOptions(page, &studio.clip[1], "b", false);
+    page->callback([this, page] {
+      studio.browser = page->count("--no-browser") == 0;
+      code = RunStudio(studio);
     });
   }
 

@@ -1,0 +1,23 @@
+// Pictures of a finished run: the same instants of its motions, one above the other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/image.h"
+
+namespace retarget {
+
+// A column of a sheet.
+struct SheetInstant {
+  double share = 0.5;  // of the clip, 0 to 1
+  double azimuth_deg =
+      40;  // where from: 0 from the front of a as solved there, positive from his left
+};
+
+// Rows: source, simulated (where the run has it, if `baseline`), solved; columns: `instants`.
+// Throws InputError where the folder holds no run.
+Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& instants,
+                   bool baseline, int width = 360, int height = 450);
+
+}  // namespace retarget
