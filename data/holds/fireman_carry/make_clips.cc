@@ -74,7 +74,7 @@ Posture Carrier(const Actor& actor, const Walk& walk, double t) {
   ArmPosture& left = p.arms[kLeft];
   left.shrug_deg = -3 + 2.5 * r(20) + 3 * effort;
   left.protraction_deg = 1 + 3 * r(21) + 4 * swing;
-  const Vec3 free(0.27 + 0.01 * r(22), -0.27, 0.22 + 0.13 * swing), knee(0.17, -0.11, 0.45);
+  const Vec3 free(0.33 + 0.01 * r(22), -0.27, 0.20 + 0.13 * swing), knee(0.19, -0.09, 0.46);
   left.knuckles = free + kneeling * (knee - free) + 0.012 * Vec3(0, r(23), r(24));
   left.pointing = Vec3(-0.15, -0.75, 0.6 + 0.2 * swing);
   left.palm = Vec3(-0.99 + 0.8 * kneeling, 0.13 - 0.9 * kneeling, -0.09);
