@@ -31,8 +31,8 @@ Posture Helper(const Actor& actor, const Walk& walk, double t) {
   ArmPosture& left = p.arms[kLeft];  // round the other's back
   left.shrug_deg = 7 + 3 * r(10) + 4 * hitch;
   left.protraction_deg = -14 + 3 * r(11);
-  left.knuckles = Vec3(0.58, -0.10, 0.02) + Vec3(0.02 * r(12), 0.025 * r(13), 0.02 * r(14));
-  left.pointing = Vec3(0.40, -0.06 + 0.1 * r(15), 0.90);
+  left.knuckles = Vec3(0.56, -0.10, 0.01) + Vec3(0.02 * r(12), 0.025 * r(13), 0.02 * r(14));
+  left.pointing = Vec3(0.45, -0.04 + 0.1 * r(15), 0.89);
   left.palm = Vec3(-0.90, 0.18, 0.41);
   left.elbow = Vec3(-0.32, -0.33 + 0.05 * r(16), -0.89);
   left.curl_deg = 35 + 8 * r(17);

@@ -14,9 +14,9 @@
   --rotate a/right_knee=27.9,0.0,0.0 \
   --rotate a/right_ankle=-5.0,-3.4,3.2 \
   --rotate a/left_clavicle=0.0,16.0,8.0 \
-  --rotate a/left_shoulder=-10.0,16.1,-53.2 \
-  --rotate a/left_elbow=-45.4,-42.1,-18.7 \
-  --rotate a/left_wrist=0.0,-21.0,-45.9 \
+  --rotate a/left_shoulder=-4.7,24.5,-55.6 \
+  --rotate a/left_elbow=-43.9,-54.6,-24.4 \
+  --rotate a/left_wrist=0.0,-19.4,-37.3 \
   --rotate a/right_clavicle=0.0,0.0,-4.0 \
   --rotate a/right_shoulder=-28.6,-22.3,50.2 \
   --rotate a/right_elbow=-22.7,124.2,97.1 \
