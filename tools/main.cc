@@ -124,6 +124,10 @@ struct CommandLine {
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app->add_option("--threads", o.threads, "0: all cores")->check(CLI::Range(0, 256));
+    app->add_option("--progress", o.progress,
+                    "of each iteration on stderr: a table (on terminals), or JSON, one per line")
+        ->check(CLI::IsMember({"table", "json"}))
+        ->capture_default_str();
     app->add_flag("--json", o.json, "print the report as JSON");
     app->add_flag("--force", o.force, "overwrite files that no earlier run wrote");
     AddClipOptions(app, &o.clip[0], "a", true);
