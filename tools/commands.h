@@ -29,6 +29,7 @@ struct RetargetOptions {
   std::string show = "figures";  // of scene.glb: "figures" or "characters"
   double fps = 30, template_at = 0;
   int threads = -1;  // -1: as configured
+  std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines
   bool json = false, force = false;
 };
 int RunRetarget(const RetargetOptions& options);
@@ -66,6 +67,17 @@ struct PoseCommandOptions {
   bool json = false, force = false;
 };
 int RunPose(const PoseCommandOptions& options);
+
+// `retarget studio`: serves the posing page until it is interrupted.
+struct StudioOptions {
+  std::string template_path, photo_path;  // to begin with; empty: none
+  std::string library;                    // folder; empty: the shipped one and the user's own
+  std::array<ClipOptions, 2> clip;        // to try a posture on
+  int port = 0;                           // 0: any that is free
+  bool browser = true;                    // open the page
+};
+int RunStudio(const StudioOptions& options);
+
 int RunRender(const std::string& folder, const std::string& out, bool force);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.

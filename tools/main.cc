@@ -70,6 +70,7 @@ struct CommandLine {
   RetargetOptions retarget;
   FromClipsOptions from_clips;
   PoseCommandOptions pose;
+  StudioOptions studio;
   ClipOptions map_clip;
   std::string folder, file, config, check, picture;
   std::vector<std::string> set, clips, folders;
@@ -83,6 +84,7 @@ struct CommandLine {
     AddTools(app);
     AddTemplate(app);
     AddPose(app);
+    AddStudio(app);
   }
 
   void AddRetarget(CLI::App* app) {
@@ -120,6 +122,10 @@ struct CommandLine {
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app->add_option("--threads", o.threads, "0: all cores")->check(CLI::Range(0, 256));
+    app->add_option("--progress", o.progress,
+                    "of each iteration on stderr: a table (on terminals), or JSON, one per line")
+        ->check(CLI::IsMember({"table", "json"}))
+        ->capture_default_str();
     app->add_flag("--json", o.json, "print the report as JSON");
     app->add_flag("--force", o.force, "overwrite files that no earlier run wrote");
     AddClipOptions(app, &o.clip[0], "a", true);
@@ -240,6 +246,26 @@ struct CommandLine {
       }
       pose.steps = StepsInOrder(*posing);
       code = RunPose(pose);
+    });
+  }
+
+  void AddStudio(CLI::App* app) {
+    CLI::App* page =
+        app->add_subcommand("studio", "pose two figures on a page in the browser (docs/studio.md)");
+    page->add_option("--template", studio.template_path, "template to open (YAML)");
+    page->add_option("--photo", studio.photo_path, "picture to pose over (PNG, JPEG, WebP)");
+    page->add_option("--library", studio.library,
+                     "folder of templates (default: the shipped ones and your own)");
+    page->add_option("--clip-a", studio.clip[0].path, "clip to try the posture on");
+    page->add_option("--clip-b", studio.clip[1].path, "clip to try the posture on");
+    page->add_option("--port", studio.port, "of 127.0.0.1; 0: any that is free")
+        ->check(CLI::Range(0, 65535));
+    page->add_flag("--no-browser,--print-url")->description("print the address only");
+    AddClipOptions(page, &studio.clip[0], "a", false);
+    AddClipOptions(page, &studio.clip[1], "b", false);
+    page->callback([this, page] {
+      studio.browser = page->count("--no-browser") == 0;
+      code = RunStudio(studio);
     });
   }
 

@@ -106,6 +106,10 @@ class Edit {
     rotation.normalize();
     Moved(op.figure);
   }
+  void operator()(const SetJoint& op) {
+    JointRotation(op.figure, op.link) = Checked(op.rotation);
+    Moved(op.figure);
+  }
   void operator()(const SetRoot& op) {
     CheckFigure(op.figure);
     CheckPlace(op.position, "position");
@@ -163,6 +167,12 @@ class Edit {
     pose.root_position.y() = -lowest;
     posture_.pose[op.figure] = pose;
     Moved(op.figure);
+  }
+
+  void operator()(const SetPosture& op) {
+    posture_ = op.posture;
+    out_.pins.clear();
+    out_.document = op.document;
   }
 
   template <typename Said>

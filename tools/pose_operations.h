@@ -47,25 +47,34 @@ struct SetOption {
   bool on = true;
 };
 
-// -- Posing by hand ------------------------------------------------------------------------------
+// -- Posing by hand: steps of one gesture (equal, not 0) are one step of the history -------------
 
 struct MoveFigure {
   int figure = 0;
   Vec3 shift = Vec3::Zero();  // m
+  int gesture = 0;
 };
 struct TurnFigure {  // about its root, in the world
   int figure = 0;
   Quat rotation = Quat::Identity();
+  int gesture = 0;
 };
 struct RotateJoint {
   int figure = 0, link = 0;
   Quat rotation = Quat::Identity();
   bool world = false;  // about the world's axes, else about the link's own
+  int gesture = 0;
+};
+struct SetJoint {
+  int figure = 0, link = 0;
+  Quat rotation = Quat::Identity();  // child in parent; of link 0 in the world
+  int gesture = 0;
 };
 struct SetRoot {
   int figure = 0;
   Vec3 position = Vec3::Zero();       // m
   std::optional<Quat> rotation = {};  // without: as it is
+  int gesture = 0;
 };
 struct SetStature {
   int figure = 0;
@@ -133,11 +142,19 @@ struct SetPhoto {
 struct SetCamera {
   std::optional<TemplateCamera> camera;
 };
+// Another posture in place of this one; the pins go.
+struct SetPosture {
+  TemplatePosture posture;
+  int document = 0;  // PoseState::document from here on
+};
 
 using Operation =
     std::variant<Drag, DragRay, Settle, Pin, Unpin, SetOption, MoveFigure, TurnFigure, RotateJoint,
-                 SetRoot, SetStature, Mirror, SwapFigures, CopySide, ResetJoint, ResetFigure,
-                 AddHold, EditHold, RemoveHold, SetSupports, SetRootLeader, SetTangles, SetName,
-                 SetDescription, SetTags, SetPhoto, SetCamera>;
+                 SetJoint, SetRoot, SetStature, Mirror, SwapFigures, CopySide, ResetJoint,
+                 ResetFigure, AddHold, EditHold, RemoveHold, SetSupports, SetRootLeader, SetTangles,
+                 SetName, SetDescription, SetTags, SetPhoto, SetCamera, SetPosture>;
+
+enum class HistoryStep { kUndo, kRedo };
+using PoseStep = std::variant<Operation, HistoryStep>;
 
 }  // namespace retarget

@@ -49,14 +49,17 @@ Json TagsJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
     entry["to_half"] = std::abs(tag.tangle.gli) - kTangleThreshold;
     entry["rho"] = tag.rho;
     entry["group_size"] = tag.group_size;
+    entry["requested"] = !posture.tangles.empty();
+    entry["weak"] = std::abs(tag.tangle.gli) < kWeakGli;
+    entry["can_slip"] = tag.rho < kEasilyLost;
     out.push_back(entry);
   }
   return out;
 }
 
-Json OverlapsJson(const TemplatePosture& posture) {
+Json OverlapsJson(const TemplatePosture& posture, const std::vector<LimbOverlap>& overlaps) {
   Json out = Json::array();
-  for (const LimbOverlap& o : OverlapsOf(posture)) {
+  for (const LimbOverlap& o : overlaps) {
     out.push_back({{"limbs", {LimbName(posture, o.limbs, 0), LimbName(posture, o.limbs, 1)}},
                    {"depth_m", o.depth},
                    {"place", {o.place.x(), o.place.y(), o.place.z()}}});
@@ -68,13 +71,13 @@ Json TableJson(const MatX& table) {
   Json out = Json::array();
   for (long i = 0; i < table.rows(); ++i) {
     Json row = Json::array();
-    for (long j = 0; j < table.cols(); ++j) row.push_back(table(i, j));
+    for (long j = 0; j < table.cols(); ++j) row.push_back(std::round(1e4 * table(i, j)) / 1e4);
     out.push_back(row);
   }
   return out;
 }
 
-// Joints beyond a limit: how far (rad).
+// Joints beyond a limit: how far (degrees).
 Json LimitsJson(const TemplatePosture& posture) {
   Json out = Json::object();
   for (int f = 0; f < 2; ++f) {
@@ -82,26 +85,32 @@ Json LimitsJson(const TemplatePosture& posture) {
       const std::vector<double> beyond = BeyondLimits(posture, f, l);
       const double most = *std::max_element(beyond.begin(), beyond.end());
       if (most > kBeyond) {
-        out[fmt::format("{}/{}", kFigure[f], posture.body[f].links[l].name)] = most;
+        out[fmt::format("{}/{}", kFigure[f], posture.body[f].links[l].name)] = most / kDegree;
       }
     }
   }
   return out;
 }
 
-std::vector<std::string> Warnings(const TemplatePosture& posture, const TemplateCheck& check) {
+void AddOverlapWarnings(const TemplatePosture& posture, const std::vector<LimbOverlap>& overlaps,
+                        std::vector<std::string>* warnings) {
+  for (const LimbOverlap& o : overlaps) {
+    if (o.depth < kDeep) continue;
+    warnings->push_back(fmt::format("{} and {} overlap by {:.1f} cm at ({:.2f}, {:.2f}, {:.2f})",
+                                    LimbName(posture, o.limbs, 0), LimbName(posture, o.limbs, 1),
+                                    100 * o.depth, o.place.x(), o.place.y(), o.place.z()));
+  }
+}
+
+std::vector<std::string> Warnings(const TemplatePosture& posture, const TemplateCheck& check,
+                                  const std::vector<LimbOverlap>& overlaps) {
   std::vector<std::string> warnings = check.warnings;
   for (const RequirementCheck& c : check.checks) {
     if (c.met) continue;
     warnings.push_back(
         fmt::format("{}: {:.4g} {}, required {:.4g}", c.name, c.value, c.unit, c.limit));
   }
-  for (const LimbOverlap& o : OverlapsOf(posture)) {
-    if (o.depth < kDeep) continue;
-    warnings.push_back(fmt::format("{} and {} overlap by {:.1f} cm at ({:.2f}, {:.2f}, {:.2f})",
-                                   LimbName(posture, o.limbs, 0), LimbName(posture, o.limbs, 1),
-                                   100 * o.depth, o.place.x(), o.place.y(), o.place.z()));
-  }
+  AddOverlapWarnings(posture, overlaps, &warnings);
   return warnings;
 }
 
@@ -140,19 +149,45 @@ std::vector<double> BeyondLimits(const TemplatePosture& posture, int figure, int
 }
 
 std::vector<std::string> WarningsOf(const TemplatePosture& posture) {
-  return Warnings(posture, CheckTemplate(posture));
+  return Warnings(posture, CheckTemplate(posture), OverlapsOf(posture));
 }
 
-Json QueriesJson(const TemplatePosture& posture) {
+std::vector<Tag> Remeasured(const std::vector<Tag>& tags, const TemplatePosture& posture) {
+  const std::array<PosedBody, 2> posed = PosedFigures(posture);
+  const Body &a = posture.body[0], &b = posture.body[1];
+  std::vector<Tag> out = tags;
+  for (Tag& tag : out) {
+    Tangle& tangle = tag.tangle;
+    tangle.gli = PolylineGli(PointsOn(posed[0].node, NodesOn(a, tangle.a)),
+                             PointsOn(posed[1].node, NodesOn(b, tangle.b)));
+    const double norm = TangleGradientNorm(a, posed[0], b, posed[1], tangle);
+    tag.rho = (std::abs(tangle.gli) - kTangleThreshold) / std::max(norm, 1e-12);
+  }
+  return out;
+}
+
+Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
+  const std::vector<Tag> now = Remeasured(tags, posture);
+  const std::vector<LimbOverlap> overlaps = OverlapsOf(posture);
+  std::vector<std::string> warnings = TagWarnings(posture, now);
+  AddOverlapWarnings(posture, overlaps, &warnings);
+  return {{"tags", TagsJson(posture, now)},
+          {"overlaps", OverlapsJson(posture, overlaps)},
+          {"warnings", warnings}};
+}
+
+Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags) {
   const TemplateCheck check = CheckTemplate(posture);
+  if (tags) *tags = check.tangles.tags;
+  const std::vector<LimbOverlap> overlaps = OverlapsOf(posture);
   return {{"name", posture.name},
           {"requirements_met", check.met()},
           {"requirements", ChecksJson(check.checks)},
           {"tags", TagsJson(posture, check.tangles.tags)},
           {"literal_tangles", check.tangles.literal.size()},
-          {"overlaps", OverlapsJson(posture)},
-          {"beyond_limits_rad", LimitsJson(posture)},
-          {"warnings", Warnings(posture, check)},
+          {"overlaps", OverlapsJson(posture, overlaps)},
+          {"beyond_limits_deg", LimitsJson(posture)},
+          {"warnings", Warnings(posture, check, overlaps)},
           {"gli_table", TableJson(GliTableOf(posture))}};
 }
 

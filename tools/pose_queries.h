@@ -28,8 +28,14 @@ std::vector<double> BeyondLimits(const TemplatePosture& posture, int figure, int
 // The checks of `template --check`, and where bodies overlap by over 1 cm.
 std::vector<std::string> WarningsOf(const TemplatePosture& posture);
 
-// All of it: tags {a, b, gli, to_half, rho, group_size}, literal_tangles, overlaps, requirements,
-// warnings, gli_table, joints beyond their limits.
-Json QueriesJson(const TemplatePosture& posture);
+// All of it: tags {a, b, gli, to_half, rho, group_size, requested, weak, can_slip},
+// literal_tangles, overlaps, requirements, warnings, gli_table, beyond_limits_deg.
+// `tags`, where given, receives the tags.
+Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags = nullptr);
+
+// During a drag: tags, overlaps and warnings alone. Finding tags takes some 15 ms, so those that
+// were found before it are measured anew (0.1 ms); what is tangled newly shows at its end.
+Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<Tag>& tags);
+std::vector<Tag> Remeasured(const std::vector<Tag>& tags, const TemplatePosture& posture);
 
 }  // namespace retarget

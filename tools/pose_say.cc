@@ -9,6 +9,8 @@
 namespace retarget {
 namespace {
 
+constexpr size_t kMostHolds = 100;
+
 void CheckHold(int index, const TemplatePosture& posture) {
   const int holds = static_cast<int>(posture.holds.size());
   if (index < 0 || index >= holds) {
@@ -45,6 +47,9 @@ Hold HoldOf(const HoldRequest& request, const TemplatePosture& posture) {
 }  // namespace
 
 void Say(const AddHold& op, TemplatePosture* posture) {
+  if (posture->holds.size() >= kMostHolds) {
+    throw InputError(fmt::format("hold: the posture has {} already", kMostHolds));
+  }
   posture->holds.push_back(HoldOf(op.hold, *posture));
 }
 

@@ -8,9 +8,22 @@
 #include "solver/fit_template.h"
 #include "tools/files.h"
 #include "tools/pose_edit.h"
+#include "tools/pose_named.h"
 
 namespace retarget {
 namespace {
+
+constexpr size_t kMostSteps = 500;  // of the history
+
+// Of an operation by hand; 0: a step of its own.
+int GestureOf(const Operation& operation) {
+  return std::visit(
+      [](const auto& op) {
+        if constexpr (requires { op.gesture; }) return op.gesture;
+        return 0;
+      },
+      operation);
+}
 
 // A foot on the floor would hold the drag of its own toe or knee back.
 bool IsDragged(const PoseTask& task, int figure, int node) {
@@ -90,40 +103,45 @@ PoseSettings SettingsOf(const PoseOptions& options, int most_iterations) {
 
 PoseSession::PoseSession(TemplatePosture posture) { state_.posture = std::move(posture); }
 
-void PoseSession::Remember() {
-  undo_.push_back(state_);
+void PoseSession::Remember(const std::string& what) {
+  if (undo_.size() >= kMostSteps) undo_.erase(undo_.begin());
+  undo_.push_back({state_, what});
   redo_.clear();
-  gesture_ = 0;
+  gesture_ = hand_gesture_ = 0;
 }
 
 std::optional<PoseResult> PoseSession::Apply(const Operation& operation, int most_iterations) {
+  const std::string what = Named(operation, posture());
   if (const Drag* drag = std::get_if<Drag>(&operation)) {
     CheckNode(posture(), drag->figure, drag->node);
     CheckPlace(drag->target, "target");
     return DragTo(NodeTarget{drag->figure, drag->node, drag->target}, std::nullopt, drag->gesture,
-                  most_iterations);
+                  what, most_iterations);
   }
   if (const DragRay* drag = std::get_if<DragRay>(&operation)) {
     CheckNode(posture(), drag->figure, drag->node);
     CheckPlace(drag->origin, "origin");
     CheckDirection(drag->direction);
     return DragTo(std::nullopt, NodeRay{drag->figure, drag->node, drag->origin, drag->direction},
-                  drag->gesture, most_iterations);
+                  drag->gesture, what, most_iterations);
   }
   if (std::holds_alternative<Settle>(operation)) {
-    return DragTo(std::nullopt, std::nullopt, 0, most_iterations);
+    return DragTo(std::nullopt, std::nullopt, 0, what, most_iterations);
   }
   PoseState next = Edited(state_, operation);
-  Remember();
+  const int gesture = GestureOf(operation);
+  if (gesture == 0 || gesture != hand_gesture_) Remember(what);
+  hand_gesture_ = gesture;
+  redo_.clear();
   state_ = std::move(next);
   return std::nullopt;
 }
 
 PoseResult PoseSession::DragTo(const std::optional<NodeTarget>& target,
                                const std::optional<NodeRay>& ray, int gesture,
-                               int most_iterations) {
+                               const std::string& what, int most_iterations) {
   if (gesture == 0 || gesture != gesture_) {
-    Remember();
+    Remember(what);
     before_ = posture().pose;
     targets_.clear();
     rays_.clear();
@@ -148,22 +166,28 @@ PoseResult PoseSession::DragTo(const std::optional<NodeTarget>& target,
   return result;
 }
 
-bool PoseSession::Undo() {
-  if (undo_.empty()) return false;
-  redo_.push_back(std::move(state_));
-  state_ = std::move(undo_.back());
-  undo_.pop_back();
-  gesture_ = 0;
+bool PoseSession::Undo() { return Walk(&undo_, &redo_); }
+
+bool PoseSession::Redo() { return Walk(&redo_, &undo_); }
+
+bool PoseSession::Walk(std::vector<Step>* from, std::vector<Step>* to) {
+  if (from->empty()) return false;
+  to->push_back({std::move(state_), from->back().what});
+  state_ = std::move(from->back().state);
+  from->pop_back();
+  gesture_ = hand_gesture_ = 0;
   return true;
 }
 
-bool PoseSession::Redo() {
-  if (redo_.empty()) return false;
-  undo_.push_back(std::move(state_));
-  state_ = std::move(redo_.back());
-  redo_.pop_back();
-  gesture_ = 0;
-  return true;
+void PoseSession::RenamePhoto(const std::string& from, const std::string& to) {
+  const auto rename = [&](PoseState* state) {
+    auto& photo = state->posture.photo;
+    if (photo && photo->file == from) photo->file = to;
+  };
+  rename(&state_);
+  for (std::vector<Step>* steps : {&undo_, &redo_}) {
+    for (Step& step : *steps) rename(&step.state);
+  }
 }
 
 std::string PoseSession::Text() const {

@@ -29,6 +29,11 @@ class PoseSession {
   bool Redo();
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
+  // What the next undo takes back, such as "drag of a/left_hand"; empty where there is nothing.
+  std::string undo_text() const { return undo_.empty() ? "" : undo_.back().what; }
+
+  // The photo's file goes by another name, now and in the history.
+  void RenamePhoto(const std::string& from, const std::string& to);
 
   // The template as a file. Throws InputError where it cannot be read back.
   std::string Text() const;
@@ -36,12 +41,19 @@ class PoseSession {
   void Save(const std::string& path, bool force) const;
 
  private:
+  struct Step {
+    PoseState state;   // before it, or after it where it was undone
+    std::string what;  // it did
+  };
+
   PoseResult DragTo(const std::optional<NodeTarget>& target, const std::optional<NodeRay>& ray,
-                    int gesture, int most_iterations);
-  void Remember();
+                    int gesture, const std::string& what, int most_iterations);
+  void Remember(const std::string& what);
+  bool Walk(std::vector<Step>* from, std::vector<Step>* to);
 
   PoseState state_;
-  std::vector<PoseState> undo_, redo_;
+  std::vector<Step> undo_, redo_;
+  int hand_gesture_ = 0;  // by hand, under way; 0: none
   // The drag that is under way.
   int gesture_ = 0;  // 0: none
   std::array<Pose, 2> before_;

@@ -26,6 +26,7 @@ struct PoseState {
   TemplatePosture posture;
   std::vector<PinnedNode> pins;
   PoseOptions options;
+  int document = 0;  // which posture that was opened this is, after all edits
 };
 
 inline std::array<PosedBody, 2> PosedFigures(const TemplatePosture& posture) {

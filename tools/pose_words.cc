@@ -31,6 +31,12 @@ PoseStep RotateStep(const Words& w) {
   return RotateJoint{at.figure, at.index, Words::Rotation(Words::Vector(numbers)), world};
 }
 
+PoseStep SetJointStep(const Words& w) {
+  const auto [joint, degrees] = w.Pair();
+  const auto at = w.LinkAt(joint);
+  return SetJoint{at.figure, at.index, Words::Rotation(Words::Vector(degrees))};
+}
+
 PoseStep RootStep(const Words& w) {
   const auto [figure, numbers] = w.Pair();
   const std::vector<double> x = Words::Numbers(numbers, {3, 6});
@@ -136,6 +142,8 @@ const std::vector<Entry>& Entries() {
       {{"rotate", "F/JOINT=x,y,z[,world]",
         "turn a joint in its own axes or the world's: rotation vector (degrees)"},
        RotateStep},
+      {{"set-joint", "F/JOINT=x,y,z", "turn a joint to this rotation vector (degrees)"},
+       SetJointStep},
       {{"root", "F=x,y,z[,rx,ry,rz]", "place a root (m, degrees)"}, RootStep},
       {{"stature", "F=m", "scale a figure to this height"},
        [](W w) -> PoseStep {

@@ -17,9 +17,6 @@ struct PoseWord {
 };
 const std::vector<PoseWord>& PoseWords();
 
-enum class HistoryStep { kUndo, kRedo };
-using PoseStep = std::variant<Operation, HistoryStep>;
-
 // Throws InputError: "--drag a/left_hnad=0,1,0: unknown node "left_hnad", did you mean ...".
 PoseStep ParsePoseStep(const std::string& name, const std::string& value, const PoseState& state);
 

@@ -17,6 +17,25 @@ std::string TangleLine(const Body& a, const Body& b, const Tangle& t) {
                      b.nodes[t.b.from].name, b.nodes[t.b.to].name);
 }
 
+std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags) {
+  std::vector<std::string> warnings;
+  for (const Tag& tag : tags) {
+    const std::string line = TangleLine(posture.body[0], posture.body[1], tag.tangle);
+    if (std::abs(tag.tangle.gli) < kWeakGli) {
+      warnings.push_back(
+          fmt::format("{} is weak: |GLI| {:.2f} is under 0.6", line, std::abs(tag.tangle.gli)));
+    }
+    if (tag.rho < kEasilyLost) {
+      warnings.push_back(
+          fmt::format("{} is easily lost: robustness radius {:.2f} is under 0.1", line, tag.rho));
+    }
+  }
+  if (tags.empty()) {
+    warnings.push_back("nothing is tangled in this posture");
+  }
+  return warnings;
+}
+
 TemplateCheck CheckTemplate(const TemplatePosture& posture) {
   const Settings settings;
   TemplateCheck check;
@@ -30,20 +49,7 @@ TemplateCheck CheckTemplate(const TemplatePosture& posture) {
   const MotionView view = ViewOf(scene.body, scene.source);
   check.metrics = Measure(subject, view, view);
   check.checks = CheckRequirements(subject, check.metrics, settings.requirements);
-  for (const Tag& tag : check.tangles.tags) {
-    const std::string line = TangleLine(scene.body[0], scene.body[1], tag.tangle);
-    if (std::abs(tag.tangle.gli) < 0.6) {
-      check.warnings.push_back(
-          fmt::format("{} is weak: |GLI| {:.2f} is under 0.6", line, std::abs(tag.tangle.gli)));
-    }
-    if (tag.rho < 0.1) {
-      check.warnings.push_back(
-          fmt::format("{} is easily lost: robustness radius {:.2f} is under 0.1", line, tag.rho));
-    }
-  }
-  if (check.tangles.tags.empty()) {
-    check.warnings.push_back("nothing is tangled in this posture");
-  }
+  check.warnings = TagWarnings(posture, check.tangles.tags);
   return check;
 }
 

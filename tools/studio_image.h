@@ -1,0 +1,21 @@
+// Pictures that the studio keeps, as bytes: it looks at their first few and never decodes them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace retarget {
+
+struct ImageKind {
+  const char* type;       // "image/png"
+  const char* extension;  // "png"
+};
+
+// By content; nothing where it is neither PNG, JPEG nor WebP.
+std::optional<ImageKind> ImageKindOf(std::string_view bytes);
+
+// Bytes of a base64 text (RFC 4648, padded). Throws InputError.
+std::string FromBase64(std::string_view text);
+
+}  // namespace retarget
