@@ -29,6 +29,7 @@ struct RetargetOptions {
   std::string show = "figures";  // of scene.glb: "figures" or "characters"
   double fps = 30, template_at = 0;
   int threads = -1;  // -1: as configured
+  std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines
   bool json = false, force = false;
   bool quiet = false;  // says nothing of the result
 };
@@ -88,7 +89,8 @@ struct StudioOptions {
 };
 int RunStudio(const StudioOptions& options);
 
-int RunRender(const std::string& folder, const std::string& out, bool force);
+// Of a run's folder, or of a template's file.
+int RunRender(const std::string& path, const std::string& out, bool force);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.
 void CatchInterrupts();

@@ -42,7 +42,38 @@ double FacingOfA(const PostureSample& sample) {
   return std::atan2(ahead.x(), ahead.z());
 }
 
+// A label above the capsules as seen from `azimuth` (rad).
+Image LabelledPicture(const std::vector<RenderCapsule>& capsules, double azimuth,
+                      const std::string& label, int width, int height) {
+  const int picture = height - kBand;
+  const RenderCamera camera =
+      CameraAround(capsules, azimuth, kElevation, static_cast<double>(width) / picture);
+  Image band = BlankImage(width, kBand, Vec3::Ones());
+  DrawLabel(&band, 4, 6, label, 2);
+  return TileImages({{band}, {RenderCapsules(capsules, camera, width, picture)}}, 0);
+}
+
 }  // namespace
+
+Image TemplateSheet(const TemplatePosture& posture, int width, int height) {
+  std::vector<RenderCapsule> capsules;
+  for (int f = 0; f < 2; ++f) {
+    const PosedBody posed = PoseBody(posture.body[f], posture.pose[f]);
+    for (const RenderCapsule& c :
+         FigureCapsules(posture.body[f], posed, f == 0 ? kColourA : kColourB)) {
+      capsules.push_back(c);
+    }
+  }
+  const Vec3 ahead = posture.pose[0].rotation[0] * Vec3::UnitZ();
+  const double facing = std::atan2(ahead.x(), ahead.z());
+  std::vector<Image> views;
+  const std::pair<const char*, double> sides[] = {
+      {"front of a", 15}, {"left", 105}, {"behind", 195}, {"right", 285}};
+  for (const auto& [name, degrees] : sides) {
+    views.push_back(LabelledPicture(capsules, facing + kDegree * degrees, name, width, height));
+  }
+  return TileImages({views});
+}
 
 Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& instants,
                    bool baseline, int width, int height) {
@@ -65,13 +96,9 @@ Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& i
       const MotionView view = ViewOfScene(motions[m].second, subject.body);
       view.at(frame, &sample);
       const std::vector<RenderCapsule> capsules = CapsulesAt(sample, subject);
-      const int picture = height - kBand;
-      const double aspect = static_cast<double>(width) / picture;
-      const Image image = RenderCapsules(
-          capsules, CameraAround(capsules, azimuth, kElevation, aspect), width, picture);
-      Image band = BlankImage(width, kBand, Vec3::Ones());
-      DrawLabel(&band, 4, 6, fmt::format("{} {:.1f} s", motions[m].first, frame / view.fps), 2);
-      rows[m].push_back(TileImages({{band}, {image}}, 0));
+      rows[m].push_back(LabelledPicture(
+          capsules, azimuth, fmt::format("{} {:.1f} s", motions[m].first, frame / view.fps), width,
+          height));
     }
   }
   return TileImages(rows);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/image.h"
+#include "model/template_posture.h"
 
 namespace retarget {
 
@@ -19,5 +20,8 @@ struct SheetInstant {
 // Throws InputError where the folder holds no run.
 Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& instants,
                    bool baseline, int width = 360, int height = 450);
+
+// A template posture from four sides: the front of a, his left, behind, his right.
+Image TemplateSheet(const TemplatePosture& posture, int width = 360, int height = 420);
 
 }  // namespace retarget

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 
 #include "io/recognise.h"
@@ -123,6 +124,10 @@ struct CommandLine {
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app->add_option("--threads", o.threads, "0: all cores")->check(CLI::Range(0, 256));
+    app->add_option("--progress", o.progress,
+                    "of each iteration on stderr: a table (on terminals), or JSON, one per line")
+        ->check(CLI::IsMember({"table", "json"}))
+        ->capture_default_str();
     app->add_flag("--json", o.json, "print the report as JSON");
     app->add_flag("--force", o.force, "overwrite files that no earlier run wrote");
     AddClipOptions(app, &o.clip[0], "a", true);
@@ -188,13 +193,19 @@ struct CommandLine {
     settings->add_option("--set", set, "change one setting");
     settings->callback([this] { code = RunConfig(config, set); });
 
-    CLI::App* render = app->add_subcommand("render", "a picture of a run: source above result");
-    render->add_option("folder", folder, "what --out was")->required();
-    render->add_option("--out", picture, "PNG file (default: scene.png in the folder)");
+    CLI::App* render =
+        app->add_subcommand("render", "a picture of a run (source above result) or of a template");
+    render->add_option("path", folder, "what --out was, or a template (YAML)")->required();
+    render->add_option("--out", picture,
+                       "PNG file (default: scene.png in the folder; beside the template)");
     render->add_flag("--force", force, "overwrite the file");
     render->callback([this] {
-      code = RunRender(folder, picture.empty() ? folder + "/scene.png" : picture,
-                       force || picture.empty());
+      const bool run = std::filesystem::is_directory(folder);
+      const std::string usual =
+          run ? folder + "/scene.png"
+              : std::filesystem::path(folder).replace_extension(".png").string();
+      code =
+          RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
     });
   }
 

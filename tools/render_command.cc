@@ -1,17 +1,25 @@
-// `retarget render DIR`: a contact sheet of a run, source above result.
+// `retarget render`: a contact sheet of a run, source above result; or a template from four sides.
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "io/template_file.h"
 #include "tools/commands.h"
 #include "tools/contact_sheet.h"
 #include "tools/files.h"
 
 namespace retarget {
 
-int RunRender(const std::string& folder, const std::string& out, bool force) {
+int RunRender(const std::string& path, const std::string& out, bool force) {
+  if (!std::filesystem::is_directory(path)) {
+    WriteFile(out, EncodePng(TemplateSheet(ReadTemplate(path))), force);
+    fmt::print("written to {}\n", out);
+    return kDone;
+  }
   constexpr int kColumns = 4;
   std::vector<SheetInstant> instants;
   for (int k = 0; k < kColumns; ++k) instants.push_back({(2.0 * k + 1) / (2.0 * kColumns)});
-  WriteFile(out, EncodePng(ContactSheet(folder, instants, false)), force);
+  WriteFile(out, EncodePng(ContactSheet(path, instants, false)), force);
   fmt::print("written to {}\n", out);
   return kDone;
 }

@@ -23,6 +23,22 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
+// One line per iteration for a program that reads along.
+Progress ProgressJson() {
+  return [](const Iteration& i) {
+    const Json line = {{"stage", i.stage},
+                       {"iteration", i.index},
+                       {"cost", i.cost},
+                       {"step_m", i.step_m},
+                       {"smallest_gli", i.smallest_gli},
+                       {"penetration_m", i.deepest_penetration_m},
+                       {"hold_m", i.hold_error_m},
+                       {"seconds", i.seconds}};
+    fmt::print(stderr, "{}\n", line.dump());
+    return !interrupted;
+  };
+}
+
 // One line per iteration on a terminal, silence elsewhere.
 Progress ProgressLines(bool quiet) {
   const bool terminal = !quiet && isatty(STDERR_FILENO);
@@ -96,7 +112,9 @@ int RunRetarget(const RetargetOptions& options) {
 
   // Fit the template, find tangles and contacts, place, start, solve.
   CatchInterrupts();
-  const RetargetResult result = Retarget(job.input, settings, ProgressLines(options.quiet));
+  const RetargetResult result =
+      Retarget(job.input, settings,
+               options.progress == "json" ? ProgressJson() : ProgressLines(options.quiet));
   for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   // Measure what is written, as it would be read back.

@@ -14,6 +14,7 @@
 #include "tools/embedded_page.h"
 #include "tools/files.h"
 #include "tools/studio_image.h"
+#include "tools/studio_jobs.h"
 #include "tools/studio_server.h"
 
 namespace retarget {
@@ -67,7 +68,9 @@ int RunStudio(const StudioOptions& options) {
   std::signal(SIGPIPE, SIG_IGN);
 
   StudioLibrary library(options.library, options.template_path);
-  StudioRoutes routes(StartOf(options, &library), &library);
+  StudioClips clips(options.clip, library.ClipFolders());
+  StudioJobs jobs;
+  StudioRoutes routes(StartOf(options, &library), &library, &clips, &jobs);
   StudioServer server(&routes, Page());
   server.Bind(options.port);
   std::thread serving([&] { server.Run(); });
@@ -77,6 +80,7 @@ int RunStudio(const StudioOptions& options) {
   int signal = 0;
   sigwait(&ends, &signal);
   server.Stop();
+  jobs.Close();
   library.Close();  // what is being written is written
   // Connections that browsers keep open are not waited for.
   std::fflush(stdout);

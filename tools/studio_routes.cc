@@ -5,6 +5,8 @@
 #include "io/nearest_name.h"
 #include "io/printable.h"
 #include "io/template_file.h"
+#include "tools/clip_posture.h"
+#include "tools/studio_answers.h"
 #include "tools/studio_error.h"
 #include "tools/studio_guard.h"
 #include "tools/studio_image.h"
@@ -12,23 +14,10 @@
 namespace retarget {
 namespace {
 
-constexpr size_t kMostOps = 64;
+constexpr size_t kMostOps = 64, kMostParameters = 16;
+constexpr int kMostFrames = 10'000'000;
 constexpr size_t kLongestId = 200, kLongestYaml = 1 << 20;  // bytes
 constexpr size_t kMostThumbnail = 700'000;                  // bytes of its base64
-
-StudioAnswer JsonAnswer(const Json& json) {
-  StudioAnswer answer;
-  answer.body = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return answer;
-}
-
-std::string Parameter(const StudioRequest& request, const std::string& name) {
-  const auto at = request.parameters.find(name);
-  if (at == request.parameters.end()) {
-    throw InputError(fmt::format("expected ?{}=... in the address", name));
-  }
-  return at->second;
-}
 
 std::string TextOr(const Fields& fields, const char* key, size_t most = kLongestId) {
   return fields.Has(key) ? fields.Text(key, most) : std::string();
@@ -60,6 +49,20 @@ std::string ThumbnailOf(const Fields& fields) {
 
 }  // namespace
 
+StudioAnswer JsonAnswer(const Json& json) {
+  StudioAnswer answer;
+  answer.body = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return answer;
+}
+
+const std::string& Parameter(const StudioRequest& request, const std::string& name) {
+  const auto at = request.parameters.find(name);
+  if (at == request.parameters.end()) {
+    throw InputError(fmt::format("expected ?{}=... in the address", name));
+  }
+  return at->second;
+}
+
 StudioAnswer ErrorAnswer(int status, const std::string& sentence, const std::string& reason) {
   Json json = {{"error", sentence}};
   if (!reason.empty()) json["reason"] = reason;
@@ -76,11 +79,13 @@ StudioAnswer AnswerOf(const std::exception& error) {
   return ErrorAnswer(500, std::string("internal error: ") + error.what());
 }
 
-StudioRoutes::StudioRoutes(StudioStart start, StudioLibrary* library)
-    : start_(std::move(start)), library_(library) {
+StudioRoutes::StudioRoutes(StudioStart start, StudioLibrary* library, StudioClips* clips,
+                           StudioJobs* jobs)
+    : start_(std::move(start)), library_(library), clips_(clips), jobs_(jobs) {
   AddSessionRoutes();
   AddLibraryRoutes();
   AddPhotoRoutes();
+  AddSolveRoutes();
 }
 
 StudioAnswer StudioRoutes::Answer(const StudioRequest& request) {
@@ -92,6 +97,7 @@ StudioAnswer StudioRoutes::Answer(const StudioRequest& request) {
 }
 
 StudioAnswer StudioRoutes::AnswerOrThrow(const StudioRequest& request) {
+  if (request.parameters.size() > kMostParameters) throw InputError("too many parameters");
   const auto route = routes_.find(request.method + " " + request.path);
   if (route == routes_.end()) {
     std::vector<std::string> names;
@@ -108,7 +114,8 @@ StudioSessions::Locked StudioRoutes::SessionOf(const StudioRequest& request) {
 // -- Sessions ------------------------------------------------------------------------------------
 
 StudioPosture StudioRoutes::PostureToLoad(const Fields& fields) const {
-  const int given = fields.Has("yaml") + fields.Has("template") + fields.Has("rest");
+  const int given =
+      fields.Has("yaml") + fields.Has("template") + fields.Has("rest") + fields.Has("clips");
   if (given != 1) throw InputError("expected one of yaml, template, rest, clips");
   if (fields.Has("yaml")) {
     StudioPosture out;
@@ -117,6 +124,14 @@ StudioPosture StudioRoutes::PostureToLoad(const Fields& fields) const {
   }
   if (fields.Has("template")) {
     return PostureOfLibrary(library_, fields.Text("template", kLongestId));
+  }
+  if (fields.Has("clips")) {
+    const Fields clips = fields.Object("clips");
+    clips.Only({"frame_a", "frame_b", "together"});
+    const int frame_a = clips.Integer("frame_a", 0, kMostFrames);
+    const int frame_b = clips.Integer("frame_b", 0, kMostFrames, frame_a);
+    return UnsavedPosture(
+        PostureOfFrames(clips_->Both(), {frame_a, frame_b}, clips.Bool("together", false)));
   }
   const Fields rest = fields.Object("rest");
   rest.Only({"stature", "distance"});
@@ -138,6 +153,8 @@ void StudioRoutes::AddSessionRoutes() {
     Json start = {{"library", library_->folder()}};
     if (start_.has_template) start["template"] = start_.posture.posture.name;
     if (!start_.posture.photo.empty()) start["photo"] = true;
+    const Json clips = clips_->StartJson();
+    if (!clips.empty()) start["clips"] = clips;
     Json reply = {{"session", id}, {"start", start}};
     reply.update(sessions_.Find(id)->WholeReply());
     return JsonAnswer(reply);

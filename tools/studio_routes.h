@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "tools/studio_clips.h"
+#include "tools/studio_jobs.h"
 #include "tools/studio_library.h"
 #include "tools/studio_sessions.h"
 
@@ -20,6 +22,9 @@ struct StudioAnswer {
   int status = 200;
   std::string type = "application/json; charset=utf-8";
   std::string body;
+  // Where the answer comes bit by bit: appends what is new, waiting for it up to a second; false:
+  // that was the last.
+  std::function<bool(std::string*)> more = nullptr;
 };
 
 // Where the studio starts.
@@ -30,7 +35,7 @@ struct StudioStart {
 
 class StudioRoutes {
  public:
-  StudioRoutes(StudioStart start, StudioLibrary* library);
+  StudioRoutes(StudioStart start, StudioLibrary* library, StudioClips* clips, StudioJobs* jobs);
 
   // Never throws: what cannot be done is answered with {"error": "one sentence"}.
   StudioAnswer Answer(const StudioRequest& request);
@@ -41,12 +46,16 @@ class StudioRoutes {
   void AddSessionRoutes();
   void AddLibraryRoutes();
   void AddPhotoRoutes();
+  void AddSolveRoutes();
+  StudioAnswer StartSolve(const StudioRequest& request);
   StudioAnswer AnswerOrThrow(const StudioRequest& request);
   StudioPosture PostureToLoad(const Fields& fields) const;
   StudioSessions::Locked SessionOf(const StudioRequest& request);
 
   StudioStart start_;
   StudioLibrary* library_;
+  StudioClips* clips_;
+  StudioJobs* jobs_;
   StudioSessions sessions_;
   std::map<std::string, Route> routes_;  // by "METHOD path"
 };

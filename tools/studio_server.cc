@@ -38,6 +38,18 @@ RequestOrigin OriginOf(const httplib::Request& request) {
 // As a stream of known length: httplib would compress a body, which takes longer than a drag.
 void Send(const StudioAnswer& answer, httplib::Response* response) {
   response->status = answer.status;
+  if (answer.more) {
+    response->set_chunked_content_provider(
+        answer.type, [more = answer.more](size_t, httplib::DataSink& sink) {
+          std::string text;
+          const bool last = !more(&text);
+          if (text.empty()) text = ":\n\n";  // shows whether anybody is listening still
+          if (!sink.is_writable() || !sink.write(text.data(), text.size())) return false;
+          if (last) sink.done();
+          return true;
+        });
+    return;
+  }
   if (answer.body.empty()) {
     response->set_content("", answer.type);
     return;
@@ -67,6 +79,9 @@ struct StudioServer::Http {
       if (request.path != "/api/photo") CheckMessageSize(request.body.size());
       StudioRequest own{request.method, request.path, {}, request.body};
       for (const auto& [name, value] : request.params) own.parameters[name] = value;
+      if (request.has_header("Last-Event-ID")) {
+        own.parameters["after"] = request.get_header_value("Last-Event-ID");
+      }
       return routes->Answer(own);
     } catch (const std::exception& error) {
       return AnswerOf(error);

@@ -9,6 +9,7 @@
 #include "model/path.h"
 #include "solver/fit_template.h"
 #include "solver/measure.h"
+#include "tools/clip_posture.h"
 #include "tools/commands.h"
 #include "tools/files.h"
 #include "tools/report.h"
@@ -155,20 +156,14 @@ int RunTemplateCheck(const std::string& path, bool json) {
 }
 
 TemplatePosture PostureFromClips(const FromClipsOptions& options) {
+  const LoadedClip a = LoadClip(options.clip[0]), b = LoadClip(options.clip[1]);
   TemplatePosture posture;
-  posture.name = options.name;
-  for (int f = 0; f < 2; ++f) {
-    const LoadedClip clip = LoadClip(options.clip[f]);
-    const RigMotion& motion = clip.file.motion;
-    if (options.frame < 0 || options.frame >= motion.num_frames()) {
-      throw InputError(fmt::format("--frame {}: {} has frames 0 to {}", options.frame,
-                                   options.clip[f].path, motion.num_frames() - 1));
-    }
-    posture.body[f] = clip.body;
-    posture.pose[f] = clip.binding->PoseOf(motion.frames[options.frame]);
-    posture.supports[f] =
-        StandingNodes(posture.body[f], PoseBody(posture.body[f], posture.pose[f]));
+  try {
+    posture = PostureOfFrames({&a, &b}, {options.frame, options.frame}, true);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--") + error.what());
   }
+  posture.name = options.name;
   posture.description = fmt::format("frame {} of {} and {}", options.frame, options.clip[0].path,
                                     options.clip[1].path);
   return posture;

@@ -24,7 +24,7 @@ here=$(dirname "$0")
   --rotate a/left_wrist=-0.0,-5.1,-35.7 --pin a/root --pin b/root --pin b/head --settle \
   --drag a/left_hand=0.03,1.55,-0.08 --drag a/right_hand=0.245,1.46,0.095 \
   --drag a/left_hand=0.03,1.55,-0.08 --hold a/right_hand=a/left_elbow \
-  --hold a/left_hand=b/head_top \
+ \
   --name "rear choke" \
   --description "a stands behind b, right forearm under b's chin, right hand in the crook of the left elbow, left hand behind b's head." \
   --tags "hold,standing,from behind,choke,wrestling" \

@@ -8,12 +8,17 @@ import { themeColour } from "./theme";
 
 export const towardsLight = new Vector3(0.45, 1, 0.6);
 
-// Pixels drawn per CSS pixel. A graphics card smooths edges by drawing more of them, which serves
-// as well as multisampling; where the processor draws, each pixel counts.
-export function pixelRatio(context: WebGL2RenderingContext): number {
+// Whether the processor draws, so that each vertex and pixel counts.
+export function drawsInSoftware(context: WebGL2RenderingContext): boolean {
   const info = context.getExtension("WEBGL_debug_renderer_info");
   const name = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
-  return /swiftshader|llvmpipe|softpipe|software/i.test(name) ? 1 : 2;
+  return /swiftshader|llvmpipe|softpipe|software/i.test(name);
+}
+
+// Pixels drawn per CSS pixel. A graphics card smooths edges by drawing more of them, which serves
+// as well as multisampling.
+export function pixelRatio(context: WebGL2RenderingContext): number {
+  return drawsInSoftware(context) ? 1 : 2;
 }
 
 // Flattens a mesh onto the floor along the light: a shadow without a second pass.
@@ -36,7 +41,7 @@ export function shadowMaterial(): MeshBasicMaterial {
 // Cells of half a metre, each edge a line of its own: software renderers drop lines that pass the
 // camera.
 function gridGeometry(): BufferGeometry {
-  const [cell, half] = [0.5, 18];
+  const [cell, half] = [0.5, 16];
   const points: number[] = [];
   for (let i = -half; i <= half; ++i) {
     for (let k = -half; k < half; ++k) {

@@ -10,7 +10,7 @@ import type { Viewport } from "./viewport";
 import { endOf, nodeOf } from "./words";
 
 const kTouching = 0.02; // m between skins; nodes further apart are drawn together by a hold
-const kPlanted = 0.1; // m; a click on the floor nearer than this to a foot means "where it is"
+const kStands = 0.15; // m over the floor; lower nodes are held to the floor where they are
 
 export class Actions {
   photoPreview: Photo | null = null; // while a slider or the mouse moves it
@@ -23,10 +23,14 @@ export class Actions {
     return this.sender.do(...ops);
   }
   undo(): void {
-    if (this.store.state.can_undo) void this.do({ op: "undo" });
+    if (this.store.state.can_undo) this.inHistory("undo");
   }
   redo(): void {
-    if (this.store.state.can_redo) void this.do({ op: "redo" });
+    if (this.store.state.can_redo) this.inHistory("redo");
+  }
+  private inHistory(op: string): void {
+    ++this.store.photoVersion; // another picture may come back
+    void this.do({ op });
   }
   settle(): void {
     void this.do({ op: "settle" });
@@ -79,7 +83,7 @@ export class Actions {
     if (!from || !place) return;
     const now = this.store.place(from);
     const { radius_m } = this.store.body[from.figure].nodes[from.node];
-    const stays = Math.hypot(place[0] - now[0], place[2] - now[2]) < kPlanted && now[1] < 0.15;
+    const stays = now[1] < kStands;
     const offset: Vec = [place[0], radius_m, place[2]];
     this.connect(from, stays ? { figure: "world" } : { figure: "world", offset });
   }
@@ -92,8 +96,9 @@ export class Actions {
     const node = store.body[to.figure].nodes[to.node];
     const apart = store.body[from.figure].nodes[from.node].radius_m + node.radius_m;
     const way = a.sub(b);
-    if (node.link === undefined || way.length() < apart + kTouching) return {};
-    const frame = new Quaternion(...store.state.figures[to.figure].frames[node.link]);
+    if (way.length() < apart + kTouching) return {};
+    const link = store.findLink(to.figure, node.link);
+    const frame = new Quaternion(...store.state.figures[to.figure].frames[link]);
     return { offset: way.setLength(apart).applyQuaternion(frame.invert()).toArray() as Vec };
   }
 
@@ -128,11 +133,11 @@ export class Actions {
     if (joint === 0) return this.store.say("The root has no rest: it is where the figure stands.");
     void this.do({ op: "reset_joint", figure, joint: this.store.body[figure].links[joint].name });
   }
-  option(option: OptionName, on: boolean): void {
-    void this.do({ op: "set_option", option, on });
+  option(option: OptionName, on: boolean): Promise<boolean> {
+    return this.do({ op: "set_option", option, on });
   }
-  tangles(tangles: Tangle[]): void {
-    void this.do({ op: "set_tangles", tangles });
+  tangles(tangles: Tangle[]): Promise<boolean> {
+    return this.do({ op: "set_tangles", tangles });
   }
 
   // Moves the selected joint in the picture's plane by metres; the solver follows.

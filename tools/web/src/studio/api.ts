@@ -38,6 +38,15 @@ async function request(method: string, path: string, query: Query, body?: BodyIn
 export async function get<T>(path: string, query: Query = {}): Promise<T> {
   return (await request("GET", path, query)).json() as Promise<T>;
 }
+// Does what asks the server; says what was wrong, if anything.
+export async function trying(say: (text: string, kind: "bad") => void, act: () => Promise<void>) {
+  try {
+    await act();
+  } catch (error) {
+    if (!(error instanceof ServerError)) throw error;
+    say(error.message, "bad");
+  }
+}
 export async function getText(path: string, query: Query = {}): Promise<string> {
   return (await request("GET", path, query)).text();
 }

@@ -107,7 +107,7 @@ function solved(store: Store): { text: string; bad: boolean } {
     bad = true;
   }
   if (result.drag_error_m > 0.01) said.push(`${cm(result.drag_error_m)} short of the target`);
-  if (result.pin_error_m > 0.005) said.push(`a pin gives way by ${cm(result.pin_error_m)}`);
+  if (result.pin_error_m > 0.005) said.push(`a pin or a standing foot gives way by ${cm(result.pin_error_m)}`);
   if (said.length === 0) said.push("reached");
   said.push(`${result.iterations} steps`, `${result.ms < 10 ? result.ms.toFixed(1) : Math.round(result.ms)} ms`);
   return { text: said.join(" · "), bad };

@@ -8,36 +8,34 @@ import { findNode } from "../shared/body";
 import type { Rgb } from "../shared/colours";
 import type { FigureBody, FigureState } from "./protocol";
 
-const kAround = 20; // vertices round a capsule
-const kRings = 5; // of each half sphere
-const kPerCapsule = kAround * 2 * kRings;
 const kHead = findNode("head");
 const kHeadTop = findNode("head_top");
 
-// A capsule's vertices as directions of the unit sphere; the first half belongs to its start.
-const kDirections = (() => {
+// A capsule's vertices as directions of the unit sphere, in rings; the first half of the rings
+// belongs to its start.
+function sphere(around: number, rings: number): Vector3[] {
   const directions: Vector3[] = [];
-  for (let ring = 0; ring < 2 * kRings; ++ring) {
-    const half = ring < kRings ? -1 : 1;
-    const step = half < 0 ? kRings - 1 - ring : ring - kRings;
-    const angle = (Math.PI / 2) * (step / (kRings - 1)); // from the seam to the pole
-    for (let k = 0; k < kAround; ++k) {
-      const turn = (2 * Math.PI * k) / kAround;
+  for (let ring = 0; ring < rings; ++ring) {
+    const half = ring < rings / 2 ? -1 : 1;
+    const step = half < 0 ? rings / 2 - 1 - ring : ring - rings / 2;
+    const angle = (Math.PI / 2) * (step / (rings / 2 - 1)); // from the seam to the pole
+    for (let k = 0; k < around; ++k) {
+      const turn = (2 * Math.PI * k) / around;
       directions.push(new Vector3(
         Math.cos(angle) * Math.cos(turn), half * Math.sin(angle), Math.cos(angle) * Math.sin(turn)));
     }
   }
   return directions;
-})();
+}
 
-function indices(capsules: number): number[] {
+function indices(capsules: number, around: number, rings: number): number[] {
   const out: number[] = [];
   for (let c = 0; c < capsules; ++c) {
-    for (let ring = 0; ring + 1 < 2 * kRings; ++ring) {
-      for (let k = 0; k < kAround; ++k) {
-        const a = c * kPerCapsule + ring * kAround + k;
-        const b = c * kPerCapsule + ring * kAround + ((k + 1) % kAround);
-        out.push(a, a + kAround, b, b, a + kAround, b + kAround);
+    for (let ring = 0; ring + 1 < rings; ++ring) {
+      for (let k = 0; k < around; ++k) {
+        const a = (c * rings + ring) * around + k;
+        const b = (c * rings + ring) * around + ((k + 1) % around);
+        out.push(a, a + around, b, b, a + around, b + around);
       }
     }
   }
@@ -55,17 +53,22 @@ export class FigureMesh {
   private readonly colour: BufferAttribute;
   private readonly shadow: Mesh;
   private readonly capsules: number;
+  private readonly directions: Vector3[];
 
-  constructor(private body: FigureBody, shadow: MeshBasicMaterial) {
+  // `around`: vertices round a capsule, even.
+  constructor(private body: FigureBody, shadow: MeshBasicMaterial, around: number) {
+    const rings = around / 2 + (around / 2) % 2;
+    this.directions = sphere(around, rings);
     this.capsules = body.nodes.length; // a segment per node but the root, and the nose
-    const attribute = () => new BufferAttribute(new Float32Array(3 * kPerCapsule * this.capsules), 3);
+    const size = 3 * this.directions.length * this.capsules;
+    const attribute = () => new BufferAttribute(new Float32Array(size), 3);
     this.position = attribute();
     this.normal = attribute();
     this.colour = attribute();
     this.geometry.setAttribute("position", this.position);
     this.geometry.setAttribute("normal", this.normal);
     this.geometry.setAttribute("color", this.colour);
-    this.geometry.setIndex(indices(this.capsules));
+    this.geometry.setIndex(indices(this.capsules, around, rings));
     const mesh = new Mesh(this.geometry, this.material);
     this.shadow = new Mesh(this.geometry, shadow);
     mesh.frustumCulled = this.shadow.frustumCulled = false;
@@ -105,10 +108,11 @@ export class FigureMesh {
     const turn = new Quaternion();
     if (axis.lengthSq() > 0) turn.setFromUnitVectors(kUp, axis.normalize());
     const out = new Vector3();
-    kDirections.forEach((direction, k) => {
-      const vertex = 3 * (index * kPerCapsule + k);
+    const count = this.directions.length;
+    this.directions.forEach((direction, k) => {
+      const vertex = 3 * (index * count + k);
       out.copy(direction).applyQuaternion(turn).toArray(this.normal.array, vertex);
-      out.multiplyScalar(radius).add(k < kPerCapsule / 2 ? from : to)
+      out.multiplyScalar(radius).add(k < count / 2 ? from : to)
         .toArray(this.position.array, vertex);
     });
   }
@@ -116,12 +120,10 @@ export class FigureMesh {
   // One colour per segment; the nose goes with the head. [segments]
   paint(colours: Rgb[]): void {
     const linear = new Color();
+    const count = this.directions.length;
     for (let c = 0; c < this.capsules; ++c) {
-      linear.setRGB(...colours[Math.min(c, this.capsules - 1) === this.capsules - 1 ? kHeadTop - 1 : c],
-        SRGBColorSpace);
-      for (let k = 0; k < kPerCapsule; ++k) {
-        linear.toArray(this.colour.array, 3 * (c * kPerCapsule + k));
-      }
+      linear.setRGB(...colours[c < this.capsules - 1 ? c : kHeadTop - 1], SRGBColorSpace);
+      for (let k = 0; k < count; ++k) linear.toArray(this.colour.array, 3 * (c * count + k));
     }
     this.colour.needsUpdate = true;
   }

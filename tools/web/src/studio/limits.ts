@@ -57,11 +57,11 @@ export function readLimits(limits: Limits, rotation_vector: Vec): LimitReading[]
     if (bend < -90) bend += 360;
     read("bend", bend, ...limits.bend);
     const side = MathUtils.radToDeg(Math.asin(Math.min(1, Math.max(-1, direction.dot(hinge)))));
-    const play = limits.hinge_play ?? 180;
+    const play = limits.play ?? 180;
     if (play < 179) read("sideways", side, -play, play);
-  } else if (limits.swing_centre && (limits.swing_max ?? 180) < 179) {
+  } else if (limits.swing_centre && (limits.swing ?? 180) < 179) {
     const swing = MathUtils.radToDeg(clampedAcos(direction.dot(vector(limits.swing_centre))));
-    read("swing", swing, 0, limits.swing_max!);
+    read("swing", swing, 0, limits.swing!);
   }
   if (limits.twist && limits.twist[1] - limits.twist[0] < 359) {
     read("twist", twistOf(rotation, axis), ...limits.twist);
@@ -70,15 +70,7 @@ export function readLimits(limits: Limits, rotation_vector: Vec): LimitReading[]
 }
 
 export function jointPlace(store: Store, figure: FigureName, link: number): Vector3 {
-  const state = store.state.figures[figure];
-  const centre = state.centres?.[link];
-  if (centre) return vector(centre);
-  const { links } = store.body[figure];
-  for (let l = link; l >= 0; l = links[l].parent) {
-    const name = links[l].node;
-    if (name) return vector(state.nodes[store.findNode(figure, name)]);
-  }
-  return vector(state.root.position);
+  return vector(store.state.figures[figure].centres[link]);
 }
 
 // The range of the selected joint: an arc for a hinge, the rim of a cone for a swing; amber where
@@ -101,10 +93,10 @@ export function drawLimits(context: CanvasRenderingContext2D, view: View, store:
     const hinge = vector(limits.hinge_axis!);
     const [from, to] = limits.bend!.map(MathUtils.degToRad);
     for (let k = 0; k <= 40; ++k) directions.push(axis.clone().applyAxisAngle(hinge, from + ((to - from) * k) / 40));
-  } else if (limits.swing_centre && (limits.swing_max ?? 180) < 179) {
+  } else if (limits.swing_centre && (limits.swing ?? 180) < 179) {
     const middle = vector(limits.swing_centre).normalize();
     const side = middle.clone().cross(Math.abs(middle.y) < 0.9 ? new Vector3(0, 1, 0) : new Vector3(1, 0, 0)).normalize();
-    const rim = middle.clone().applyAxisAngle(side, MathUtils.degToRad(limits.swing_max!));
+    const rim = middle.clone().applyAxisAngle(side, MathUtils.degToRad(limits.swing!));
     for (let k = 0; k <= 60; ++k) directions.push(rim.clone().applyAxisAngle(middle, (2 * Math.PI * k) / 60));
   } else {
     return;

@@ -35,7 +35,7 @@ async function start(): Promise<void> {
   const gizmo = new Gizmo(viewport, store, sender);
   const pointer = new Pointer(viewport, store, sender, gizmo, actions);
   const overlay = new Overlay(store);
-  const photoLayer = new PhotoLayer(actions, store, session);
+  const photoLayer = new PhotoLayer(actions, store);
   viewport.onDraw((context, view) => overlay.draw(context, view), () => photoLayer.place());
 
   const library = new LibraryPanel(store, actions, session);
@@ -62,7 +62,7 @@ async function start(): Promise<void> {
     photo.loaded();
   };
   session.onLoad();
-  store.changed();
+  photo.keepView();
   await Promise.all([library.load(), tryIt.load()]);
   exposeHook(store, sender, viewport);
 }

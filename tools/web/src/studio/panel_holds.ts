@@ -35,9 +35,9 @@ export class HoldsPanel {
     store.onChange(() => this.refresh());
   }
 
-  private support(figure: "a" | "b", node: string, on: boolean): void {
+  private support(figure: "a" | "b", node: string, on: boolean): Promise<boolean> {
     const others = this.store.state.supports[figure].filter((name) => name !== node);
-    void this.actions.do({ op: "set_supports", figure, nodes: on ? [...others, node] : others });
+    return this.actions.do({ op: "set_supports", figure, nodes: on ? [...others, node] : others });
   }
 
   private refresh(): void {
@@ -54,7 +54,7 @@ export class HoldsPanel {
     const open = hold.error_m > kOpen;
     const turn = check("keeps its angle", "also keep the relative orientation of the two ends", (rotation) => {
       const { from, to } = hold;
-      void this.actions.do({ op: "edit_hold", index, from, to, rotation });
+      return this.actions.do({ op: "edit_hold", index, from, to, rotation });
     });
     turn.set(hold.rotation);
     const edit = button("Edit", "pick both ends anew", () => {

@@ -1,7 +1,7 @@
 // Panel "Library": what the template says of itself, and the folder of templates.
 
 import { element } from "../shared/dom";
-import { address, get, post, ServerError } from "./api";
+import { address, get, post, trying } from "./api";
 import type { Actions } from "./actions";
 import { asked, confirmed } from "./dialogs";
 import type { TemplateInfo } from "./protocol";
@@ -39,16 +39,13 @@ export class LibraryPanel {
   }
 
   async load(): Promise<void> {
-    try {
+    await trying(this.store.say.bind(this.store), async () => {
       const { folder, templates } = await get<{ folder: string; templates: TemplateInfo[] }>("/api/library");
       this.templates = templates;
       this.where.textContent = `Folder: ${folder}`;
       ++this.stamp;
       this.list();
-    } catch (error) {
-      if (!(error instanceof ServerError)) throw error;
-      this.store.say(error.message, "bad");
-    }
+    });
   }
   get known(): TemplateInfo[] {
     return this.templates;
@@ -79,12 +76,12 @@ export class LibraryPanel {
   }
 
   private item(template: TemplateInfo): HTMLElement {
-    const { id, name, tags, read_only, has_thumbnail, description } = template;
+    const { id, name, tags, read_only, has_thumbnail, description, error } = template;
     const picture = has_thumbnail
       ? element("img", { alt: "", src: address("/api/library/thumbnail", { id, v: String(this.stamp) }), loading: "lazy" })
       : element("span", { class: "no-picture", "aria-hidden": "true" }, name.slice(0, 1).toUpperCase());
     const open = element("button", { type: "button", class: "open", title: `open: ${description || name}` }, picture,
-      element("span", { class: "about" }, element("b", {}, name), element("small", {}, [read_only ? "shipped" : "", ...tags].filter(Boolean).join(" · "))));
+      element("span", { class: "about" }, element("b", {}, name), element("small", {}, error ?? [read_only ? "shipped" : "", ...tags].filter(Boolean).join(" · "))));
     open.addEventListener("click", () => void this.open(template));
     const copy = button("Duplicate", `make a copy of ${name}`, () => void this.duplicate(template), "plain");
     const drop = button("Delete", `delete ${name}`, () => void this.delete(template), "plain danger");
@@ -108,13 +105,10 @@ export class LibraryPanel {
     if (sure) await this.change("/api/delete", { id }, `Deleted "${name}".`);
   }
   private async change(path: string, body: object, said: string): Promise<void> {
-    try {
+    await trying(this.store.say.bind(this.store), async () => {
       await post(path, body);
       this.store.say(said, "good");
-    } catch (error) {
-      if (!(error instanceof ServerError)) throw error;
-      this.store.say(error.message, "bad");
-    }
+    });
     await this.load();
   }
 }

@@ -5,11 +5,12 @@ import { element } from "../shared/dom";
 import type { Actions } from "./actions";
 import type { Camera, Photo, Vec } from "./protocol";
 import type { Session } from "./session";
-import type { Store } from "./store";
+import type { PanelName, Store } from "./store";
 import { directions, type Direction } from "./view";
 import { button, check, list, note, number, row, section, slider } from "./widgets";
 
 const kSaved = "retarget-studio-cameras";
+const kView = "retarget-studio-view";
 interface SavedCamera extends Camera {
   name: string;
 }
@@ -120,6 +121,18 @@ export class PhotoPanel {
     this.store.set({ locked: on });
     this.view.controls.enabled = !on;
     if (on && JSON.stringify(this.now()) !== JSON.stringify(this.store.state.camera)) this.toTemplate();
+  }
+
+  // The view over a reload of the page.
+  keepView(): void {
+    addEventListener("pagehide", () => sessionStorage.setItem(kView, JSON.stringify(
+      { camera: this.now(), locked: this.store.ui.locked, panel: this.store.ui.panel })));
+    const kept = sessionStorage.getItem(kView);
+    if (!kept || !this.session.resumed) return;
+    const { camera, locked, panel } = JSON.parse(kept) as { camera: Camera; locked: boolean; panel: PanelName };
+    this.apply(camera);
+    this.view.controls.enabled = !locked;
+    this.store.set({ locked, panel });
   }
 
   // Another template: its camera; locked where it has a photo too.

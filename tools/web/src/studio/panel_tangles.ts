@@ -70,7 +70,10 @@ export class TanglesPanel {
   }
 
   private tag(tag: Tag): HTMLElement {
-    const box = check("", "keep this tangle in a solve", (on) => this.tick(tag, on));
+    const box = check("", "keep this tangle in a solve", (on) => {
+      item.dataset.waiting = "true";
+      return this.tick(tag, on).then(() => (item.dataset.waiting = "false"));
+    });
     const bar = element("div", { class: "bar", title: "|GLI| (turns); the line stands at 0.5" }, element("i", {}), element("b", {}));
     const item = element("li", { tabindex: "0", "data-tag": keyOf(tag) },
       element("div", { class: "tag" }, box.label,
@@ -85,7 +88,8 @@ export class TanglesPanel {
   private write(item: HTMLElement, tag: Tag): void {
     const size = Math.abs(tag.gli);
     const whole = this.store.state.tangles.length === 0;
-    item.querySelector("input")!.checked = whole || tag.requested;
+    const box = item.querySelector("input")!;
+    if (item.dataset.waiting !== "true") box.checked = whole || tag.requested;
     item.classList.toggle("off", !whole && !tag.requested);
     item.querySelector("output")!.textContent = signed(tag.gli, 3);
     const fill = item.querySelector<HTMLElement>("i")!;
@@ -100,12 +104,12 @@ export class TanglesPanel {
   }
 
   // One tick changes "found" into a list of one's own.
-  private tick(tag: Tag, on: boolean): void {
+  private tick(tag: Tag, on: boolean): Promise<boolean> {
     const { tangles, queries } = this.store.state;
     const now = tangles.length === 0 ? queries.tags.map(plain) : tangles;
     const rest = now.filter((t) => !same(t, tag));
     if (!on && rest.length === 0) this.store.say("The last tick leaves it to the reduction.");
-    this.actions.tangles(on ? [...rest, plain(tag)] : rest);
+    return this.actions.tangles(on ? [...rest, plain(tag)] : rest);
   }
 
   // -- Every segment of a (rows) against every segment of b (columns) -----------------------------

@@ -2,7 +2,7 @@
 
 import { element, fitCanvas } from "../shared/dom";
 import { themeColour } from "../shared/theme";
-import { address, get, post, ServerError } from "./api";
+import { address, get, post, trying } from "./api";
 import type { Requirement } from "./protocol";
 import type { Store } from "./store";
 import { button, list, note, row, section, select } from "./widgets";
@@ -41,6 +41,7 @@ export class TryPanel {
   private job: string | null = null;
   private events: EventSource | null = null;
   private costs: number[] = [];
+  private readonly say = (text: string, kind: "bad") => this.store.say(text, kind);
 
   constructor(private readonly store: Store) {
     const field = (label: string, input: HTMLElement) => element("label", { class: "field inline" }, label, input);
@@ -51,7 +52,11 @@ export class TryPanel {
       field("Frames", this.frames), field("Start", this.begins.element), row(this.solve, this.stop)), this.result);
   }
 
-  async load(): Promise<void> {
+  load(): Promise<void> {
+    return trying(this.say, () => this.fill());
+  }
+
+  private async fill(): Promise<void> {
     const { files } = await get<{ files: Clip[] }>("/api/clips");
     const options = files.map(({ id, name, frames }) => [id, frames ? `${name} (${frames} frames)` : name] as [string, string]);
     const pick = (figure: "a" | "b", k: number) => {
@@ -69,16 +74,13 @@ export class TryPanel {
   private async begin(): Promise<void> {
     const frames = this.frames.value.trim();
     const start = this.begins.element.value;
-    try {
+    await trying(this.say, async () => {
       const { job } = await post<{ job: string }>("/api/solve", {
         session: this.store.session, clip_a: this.clips.a.element.value, clip_b: this.clips.b.element.value,
         ...(frames ? { frames } : {}), ...(start ? { settings: { "solve.start": start } } : {}),
       });
       this.watch(job);
-    } catch (error) {
-      if (!(error instanceof ServerError)) throw error;
-      this.store.say(error.message, "bad");
-    }
+    });
   }
 
   private watch(job: string): void {
@@ -139,13 +141,10 @@ export class TryPanel {
   private async end(): Promise<void> {
     if (!this.job) return;
     this.stop.disabled = true;
-    try {
+    await trying(this.say, async () => {
       await post("/api/solve/stop", { job: this.job });
       this.tell({ stage: "stopping" });
-    } catch (error) {
-      if (!(error instanceof ServerError)) throw error;
-      this.store.say(error.message, "bad");
-    }
+    });
   }
 
   private over(): void {

@@ -2,14 +2,13 @@
 
 import { address } from "./api";
 import type { Actions } from "./actions";
-import type { Session } from "./session";
 import type { Store } from "./store";
 
 export class PhotoLayer {
   private source = "";
 
   constructor(
-    private readonly actions: Actions, private readonly store: Store, private readonly session: Session,
+    private readonly actions: Actions, private readonly store: Store,
   ) {
     this.image.hidden = true;
     this.image.addEventListener("load", () => actions.viewport.invalidate());
@@ -25,7 +24,7 @@ export class PhotoLayer {
     const photo = this.actions.photoPreview ?? state.photo;
     this.image.hidden = !photo;
     if (!photo) return;
-    const source = address("/api/photo", { session, v: `${this.session.photoVersion}-${photo.file}` });
+    const source = address("/api/photo", { session, v: `${this.store.photoVersion}-${photo.file}` });
     if (source !== this.source) {
       this.source = source;
       this.image.src = source;

@@ -12,15 +12,15 @@ export interface Limits {
   axis?: Vec;
   twist?: [number, number];
   swing_centre?: Vec; // a direction
-  swing_max?: number;
+  swing?: number; // furthest from the centre
   hinge_axis?: Vec;
   bend?: [number, number];
-  hinge_play?: number;
+  play?: number; // out of the plane of bending
 }
 
 export interface FigureBody {
   stature: number;
-  nodes: { name: string; parent: number; radius_m: number; link?: number }[]; // link: carries it
+  nodes: { name: string; parent: number; radius_m: number; link: string }[]; // link: carries it
   links: { name: string; parent: number; node: string | null; limits: Limits }[];
 }
 export type Body = Record<FigureName, FigureBody>;
@@ -31,7 +31,7 @@ export interface FigureState {
   nodes: Vec[];
   frames: Quat[]; // of the links, in the world
   rotation_vectors: Vec[]; // of the links, in their parents
-  centres?: Vec[]; // of the joints, in the world
+  centres: Vec[]; // of the joints, in the world
 }
 
 export interface Ray {
@@ -167,6 +167,7 @@ export interface TemplateInfo {
   description: string;
   tags: string[];
   read_only: boolean;
-  modified?: string | number;
+  modified?: string;
   has_thumbnail: boolean;
+  error?: string; // why it cannot be read
 }

@@ -21,6 +21,7 @@ interface Draft {
 export class Session {
   onLoad: () => void = () => {}; // another posture, not an edit
   onLibrary: () => void = () => {};
+  resumed = false; // the session was there before the page
   private timer = 0;
 
   constructor(
@@ -35,6 +36,7 @@ export class Session {
     if (old) {
       try {
         this.store.take({ ...(await get<Reply>("/api/state", { session: old })), session: old });
+        this.resumed = true;
         return;
       } catch (error) {
         if (!(error instanceof ServerError) || error.status !== 404) throw error;
@@ -123,6 +125,7 @@ export class Session {
 
   load(what: object): Promise<boolean> {
     return this.sender.run(async () => {
+      ++this.store.photoVersion;
       this.store.take(await post<Reply>("/api/load", { session: this.store.session, ...what }));
       this.keepDraft();
       this.onLoad();
@@ -177,19 +180,18 @@ export class Session {
   photo(file: Blob): Promise<boolean> {
     return this.sender.run(async () => {
       const query: Query = { session: this.store.session };
-      const reply = await postFile<Partial<Reply>>("/api/photo", query, file);
-      this.store.take(reply.state ? (reply as Reply) : await get<Reply>("/api/state", query));
-      ++this.photoVersion;
+      const reply = await postFile<Reply>("/api/photo", query, file);
+      this.store.take(reply);
+      ++this.store.photoVersion;
       this.keepDraft();
     });
   }
   removePhoto(): Promise<boolean> {
     return this.sender.run(async () => {
       const query: Query = { session: this.store.session };
-      const reply = await remove<Partial<Reply>>("/api/photo", query);
-      this.store.take(reply.state ? (reply as Reply) : await get<Reply>("/api/state", query));
+      const reply = await remove<Reply>("/api/photo", query);
+      this.store.take(reply);
       this.keepDraft();
     });
   }
-  photoVersion = 0; // so that the browser asks anew
 }

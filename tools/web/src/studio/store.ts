@@ -47,6 +47,7 @@ export class Store {
   start: Start = {};
   message: Message = { text: "", kind: "info" };
   connected = true;
+  photoVersion = 0; // so that the browser asks for the picture anew
   ui: Ui = {
     tool: "pose", selected: null, figure: "a", joint: 0, hovered: null, worldAxes: false,
     turning: false, shown: { a: "shown", b: "shown" }, heat: false, sideViews: true, lit: null,

@@ -7,7 +7,7 @@ import { figureColour, heatStops, mix, ramp, rgbOf, type Rgb } from "../shared/c
 import { element } from "../shared/dom";
 import { figureNames, type FigureName } from "../shared/figure_scene";
 import { numSegments, findNode, pathSigns } from "../shared/body";
-import { pixelRatio, shadowMaterial, surround } from "../shared/surroundings";
+import { drawsInSoftware, pixelRatio, shadowMaterial, surround } from "../shared/surroundings";
 import { isDark, onThemeChange, themeColour } from "../shared/theme";
 import { FigureMesh } from "./figure_mesh";
 import type { Store } from "./store";
@@ -31,11 +31,13 @@ export class Viewport {
   private onlyInMain: { visible: boolean }[] = [];
   private scheduled = false;
   private size = "";
+  private readonly slow: boolean;
 
   // Throws where the browser has no WebGL.
   constructor(private readonly container: HTMLElement, private readonly store: Store) {
     const context = this.canvas.getContext("webgl2", { alpha: true, antialias: false });
     if (!context) throw new Error("no WebGL");
+    this.slow = drawsInSoftware(context);
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
     // Smooth edges need two pixels drawn per CSS pixel, a dense screen has them anyway.
     this.renderer.setPixelRatio(pixelRatio(context));
@@ -51,6 +53,7 @@ export class Viewport {
       (name) => new View(name, column, redraw))];
     container.append(views, this.overlay);
     new ResizeObserver(redraw).observe(this.main.element);
+    this.surroundings.floor.visible = false; // the stage has its colour
     this.dress();
     onThemeChange(() => {
       this.dress();
@@ -81,7 +84,7 @@ export class Viewport {
     for (const figure of figureNames) {
       let mesh = this.meshes[figure];
       if (!mesh) {
-        mesh = this.meshes[figure] = new FigureMesh(body[figure], this.shadow);
+        mesh = this.meshes[figure] = new FigureMesh(body[figure], this.shadow, this.slow ? 10 : 20);
         this.scene.add(mesh.group);
       }
       mesh.resize(body[figure]);
@@ -150,7 +153,7 @@ export class Viewport {
     const ratio = Math.min(devicePixelRatio || 1, 2);
     const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
     if (this.overlay.width !== w || this.overlay.height !== h) [this.overlay.width, this.overlay.height] = [w, h];
-    const context = this.overlay.getContext("2d")!;
+    const context = this.overlay.getContext("2d", { willReadFrequently: this.slow })!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
     for (const view of this.views) {
@@ -172,7 +175,6 @@ export class Viewport {
     view.fit(width, height);
     const main = view === this.main;
     const picture = main && !this.photo.hidden;
-    this.surroundings.floor.visible = !picture && view.name !== "top";
     this.surroundings.grid.visible = view.name === "main" || view.name === "top";
     const distance = view.camera.position.distanceTo(view.controls.target);
     const fog = scene.fog as Fog;

@@ -18,12 +18,19 @@ export interface Check {
   set(on: boolean): void;
   enable(on: boolean): void;
 }
-export function check(text: string, title: string, act: (on: boolean) => void): Check {
+// Shows what was clicked until the server has answered.
+export function check(text: string, title: string, act: (on: boolean) => unknown): Check {
   const box = element("input", { type: "checkbox" });
-  box.addEventListener("change", () => act(box.checked));
+  let waiting = 0;
+  box.addEventListener("change", () => {
+    ++waiting;
+    void Promise.resolve(act(box.checked)).then(() => --waiting);
+  });
   return {
     label: element("label", { title, class: "check" }, box, ` ${text}`),
-    set: (on) => (box.checked = on),
+    set(on) {
+      if (waiting === 0) box.checked = on;
+    },
     enable: (on) => (box.disabled = !on),
   };
 }
