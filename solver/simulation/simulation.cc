@@ -8,6 +8,7 @@
 #include "model/path.h"
 #include "model/so3.h"
 #include "solver/guard.h"
+#include "solver/meeting.h"
 #include "solver/simulation/physics_world.h"
 #include "solver/simulation/tangle_force.h"
 #include "solver/spacetime.h"
@@ -38,7 +39,8 @@ class Run {
         frame_time_(1 / scene.fps()),
         steps_per_frame_(static_cast<int>(std::ceil(frame_time_ / settings.time_step - 1e-9))),
         world_(Figures(), Ties(), Options()),
-        tangle_force_(scene, settings) {
+        tangle_force_(scene, settings),
+        meeting_(MeetingShifts(scene)) {
     for (int f = 0; f < 2; ++f) {
       relative_[f] = RelativeRootTargets(scene, f);
       result_.motion[f].fps = scene.fps();
@@ -163,7 +165,8 @@ class Run {
   Target TargetAt(int t, int next, double u) const {
     Target target;
     for (int f = 0; f < 2; ++f) {
-      const Pose &from = scene_.source[f].frames[t], &to = scene_.source[f].frames[next];
+      const Pose from = ShiftedRoot(scene_.source[f].frames[t], meeting_[f][t]);
+      const Pose to = ShiftedRoot(scene_.source[f].frames[next], meeting_[f][next]);
       target.pose[f] = Interpolate(from, to, u);
       target.root_velocity[f] = (to.root_position - from.root_position) / frame_time_;
       for (size_t l = 0; l < from.rotation.size(); ++l) {
@@ -408,6 +411,7 @@ class Run {
   PhysicsWorld world_;
   TangleForce tangle_force_;
   std::array<std::vector<RelativeRoot>, 2> relative_;
+  std::array<std::vector<RootShift>, 2> meeting_;
   std::array<PosedBody, 2> posed_;
   Stray stray_;
   std::vector<char> simulated_;  // per frame
