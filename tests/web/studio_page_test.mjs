@@ -79,8 +79,17 @@ after(async () => {
 
 async function open(address = url) {
   await page.goto(address);
-  await page.waitForFunction(() => window.retargetStudio, null, { timeout: 60000 });
+  await until(() => Boolean(window.retargetStudio));
   await idle();
+}
+
+// The page's policy forbids what page.waitForFunction does.
+async function until(holds, argument) {
+  for (let tries = 0; tries < 600; ++tries) {
+    if (await page.evaluate(holds, argument).catch(() => false)) return;
+    await page.waitForTimeout(50);
+  }
+  throw new Error(`never came true: ${holds}`);
 }
 
 // -- A person's hands ------------------------------------------------------------------------------
@@ -131,7 +140,7 @@ const tab = (name) => page.click(`#tab-${name}`);
 async function fromRest() {
   await page.keyboard.press("n");
   await page.getByRole("button", { name: "Start from rest" }).click();
-  await page.waitForFunction(() => !document.querySelector("dialog"));
+  await until(() => !document.querySelector("dialog"));
   await idle();
 }
 
@@ -191,7 +200,7 @@ test("the list of tangles is that of `retarget tangles` on the saved file", asyn
   await page.getByRole("button", { name: "Save as" }).click();
   await page.keyboard.type("bear hug again");
   await page.keyboard.press("Enter");
-  await page.waitForFunction(() => !document.querySelector("dialog"));
+  await until(() => !document.querySelector("dialog"));
   let now = await state();
   const file = join(library, `${now.saved_as}.yaml`);
   assert.ok(existsSync(file));
@@ -263,15 +272,16 @@ test("a drag in the main view follows the mouse, and Escape takes it back", asyn
 
 test("requests do not pile up while one drags", async () => {
   const before_ = await page.evaluate(() => window.retargetStudio.requests);
-  await drag("b/right_hand", -25, -30, { steps: 40 });
+  await drag("b/right_hand", -25, -30, { steps: 25 });
   const made = (await page.evaluate(() => window.retargetStudio.requests)) - before_;
-  assert.ok(made >= 2 && made <= 41, `${made} requests`);
+  assert.ok(made >= 2 && made <= 26, `${made} requests`);
   assert.equal((await state()).can_undo, true);
   await press("Control+z");
   await press("Control+Shift+z");
 });
 
 test("a hold is made by two clicks, closes, and holds", async () => {
+  await press("7"); // from above, where no joint hides another
   await press("c");
   await click("a/right_hand");
   await click("b/left_wrist");
@@ -295,6 +305,7 @@ test("a hold is made by two clicks, closes, and holds", async () => {
   assert.equal((await state()).holds[1].to.figure, "world");
   await page.locator("[data-hold='1']").getByRole("button", { name: "remove this hold" }).click();
   assert.equal((await state()).holds.length, 1);
+  await press("0");
 });
 
 test("undo and redo go to the exact states", async () => {
@@ -363,7 +374,7 @@ test("the gizmo moves a whole figure in one step", async () => {
 test("a photo stands behind; a joint is pinned to one of its points", async () => {
   await tab("photo");
   await page.setInputFiles("input[type=file]", { name: "behind.png", mimeType: "image/png", buffer: picture(400, 300) });
-  await page.waitForFunction(() => document.querySelector(".photo").naturalWidth === 400);
+  await until(() => document.querySelector(".photo").naturalWidth === 400);
   assert.ok((await state()).photo);
   const box = await page.locator(".photo").boundingBox();
   const view = await page.locator(".view.main").boundingBox();
@@ -399,9 +410,9 @@ test("unsaved work survives a reload, and the server's end", async () => {
   await page.keyboard.press("Enter");
   const before_ = await state();
   assert.equal(before_.dirty, true);
-  await page.waitForFunction(() => Object.keys(localStorage).some((k) => localStorage[k].includes("work in progress")));
+  await until(() => Object.keys(localStorage).some((k) => localStorage[k].includes("work in progress")));
   await page.reload();
-  await page.waitForFunction(() => window.retargetStudio);
+  await until(() => Boolean(window.retargetStudio));
   let now = await state();
   assert.deepEqual(posture(now), posture(before_));
   assert.equal(now.can_undo, true);
@@ -436,7 +447,7 @@ test("saves, duplicates, asks before it replaces or deletes", async () => {
   await item.getByRole("button", { name: "Duplicate" }).click();
   await page.fill("dialog input", "third hold");
   await page.keyboard.press("Enter");
-  await page.waitForFunction(() => document.querySelectorAll(".panel .templates li").length >= 3);
+  await until(() => document.querySelectorAll(".panel .templates li").length >= 3);
   assert.ok(existsSync(join(library, "third hold.yaml")));
   const copy = page.locator("[data-id='third hold']");
   await copy.getByRole("button", { name: "Delete" }).click();
@@ -465,7 +476,7 @@ test("two clips are solved, watched, and reported on the page", async () => {
   await tab("library");
   await page.fill("input[type=search]", "");
   await page.locator(".templates li", { hasText: "bear hug again" }).locator(".open").click();
-  await page.waitForFunction(() => window.retargetStudio.state().saved_as === "bear hug again");
+  await until(() => window.retargetStudio.state().saved_as === "bear hug again");
   await tab("try");
   await page.getByLabel("frames, such as 0:240").fill("0:20");
   await page.getByLabel("where the solve starts").selectOption("template");
