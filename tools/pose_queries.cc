@@ -42,6 +42,33 @@ std::string LimbName(const TemplatePosture& posture, const LimbPair& limbs, int 
                      posture.body[limbs.figure[k]].nodes[limbs.node[k]].name);
 }
 
+bool IsRequested(const TemplatePosture& posture, const Tag& tag) {
+  return std::any_of(posture.tangles.begin(), posture.tangles.end(), [&](const TangleRequest& t) {
+    return t.a == tag.tangle.a && t.b == tag.tangle.b;
+  });
+}
+
+// Those that are to be kept: those that the posture lists, else all.
+std::vector<Tag> KeptTags(const TemplatePosture& posture, const std::vector<Tag>& tags) {
+  std::vector<Tag> kept;
+  for (const Tag& tag : tags) {
+    if (posture.tangles.empty() || IsRequested(posture, tag)) kept.push_back(tag);
+  }
+  return kept;
+}
+
+// Also what is found beside a posture's own list.
+std::vector<Tag> AllTags(const TemplatePosture& posture, const std::vector<Tag>& kept) {
+  if (posture.tangles.empty()) return kept;
+  TemplatePosture unlisted = posture;
+  unlisted.tangles.clear();
+  std::vector<Tag> all = kept;
+  for (const Tag& tag : FindTemplateTangles(unlisted, Settings().tangle).tags) {
+    if (!IsRequested(posture, tag)) all.push_back(tag);
+  }
+  return all;
+}
+
 Json TagsJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
   Json out = Json::array();
   for (const Tag& tag : tags) {
@@ -49,7 +76,7 @@ Json TagsJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
     entry["to_half"] = std::abs(tag.tangle.gli) - kTangleThreshold;
     entry["rho"] = tag.rho;
     entry["group_size"] = tag.group_size;
-    entry["requested"] = !posture.tangles.empty();
+    entry["requested"] = IsRequested(posture, tag);
     entry["weak"] = std::abs(tag.tangle.gli) < kWeakGli;
     entry["can_slip"] = tag.rho < kEasilyLost;
     out.push_back(entry);
@@ -169,7 +196,7 @@ std::vector<Tag> Remeasured(const std::vector<Tag>& tags, const TemplatePosture&
 Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
   const std::vector<Tag> now = Remeasured(tags, posture);
   const std::vector<LimbOverlap> overlaps = OverlapsOf(posture);
-  std::vector<std::string> warnings = TagWarnings(posture, now);
+  std::vector<std::string> warnings = TagWarnings(posture, KeptTags(posture, now));
   AddOverlapWarnings(posture, overlaps, &warnings);
   return {{"tags", TagsJson(posture, now)},
           {"overlaps", OverlapsJson(posture, overlaps)},
@@ -178,12 +205,13 @@ Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<Tag>& tag
 
 Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags) {
   const TemplateCheck check = CheckTemplate(posture);
-  if (tags) *tags = check.tangles.tags;
+  const std::vector<Tag> all = AllTags(posture, check.tangles.tags);
+  if (tags) *tags = all;
   const std::vector<LimbOverlap> overlaps = OverlapsOf(posture);
   return {{"name", posture.name},
           {"requirements_met", check.met()},
           {"requirements", ChecksJson(check.checks)},
-          {"tags", TagsJson(posture, check.tangles.tags)},
+          {"tags", TagsJson(posture, all)},
           {"literal_tangles", check.tangles.literal.size()},
           {"overlaps", OverlapsJson(posture, overlaps)},
           {"beyond_limits_deg", LimitsJson(posture)},

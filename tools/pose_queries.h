@@ -28,9 +28,9 @@ std::vector<double> BeyondLimits(const TemplatePosture& posture, int figure, int
 // The checks of `template --check`, and where bodies overlap by over 1 cm.
 std::vector<std::string> WarningsOf(const TemplatePosture& posture);
 
-// All of it: tags {a, b, gli, to_half, rho, group_size, requested, weak, can_slip},
-// literal_tangles, overlaps, requirements, warnings, gli_table, beyond_limits_deg.
-// `tags`, where given, receives the tags.
+// All of it: tags {a, b, gli, to_half, rho, group_size, requested, weak, can_slip}, those that the
+// posture lists first, then those that are found; literal_tangles, overlaps, requirements,
+// warnings, gli_table, beyond_limits_deg. `tags`, where given, receives all of them.
 Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags = nullptr);
 
 // During a drag: tags, overlaps and warnings alone. Finding tags takes some 15 ms, so those that

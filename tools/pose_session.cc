@@ -104,8 +104,10 @@ PoseSettings SettingsOf(const PoseOptions& options, int most_iterations) {
 PoseSession::PoseSession(TemplatePosture posture) { state_.posture = std::move(posture); }
 
 void PoseSession::Remember(const std::string& what) {
-  if (undo_.size() >= kMostSteps) undo_.erase(undo_.begin());
-  undo_.push_back({state_, what});
+  if (!joined_ || undo_.empty()) {
+    if (undo_.size() >= kMostSteps) undo_.erase(undo_.begin());
+    undo_.push_back({state_, what});
+  }
   redo_.clear();
   gesture_ = hand_gesture_ = 0;
 }

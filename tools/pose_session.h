@@ -32,6 +32,10 @@ class PoseSession {
   // What the next undo takes back, such as "drag of a/left_hand"; empty where there is nothing.
   std::string undo_text() const { return undo_.empty() ? "" : undo_.back().what; }
 
+  // From the next operation on, until it is switched off: what is done belongs to the last step of
+  // the history.
+  void Join(bool on) { joined_ = on; }
+
   // The photo's file goes by another name, now and in the history.
   void RenamePhoto(const std::string& from, const std::string& to);
 
@@ -53,6 +57,7 @@ class PoseSession {
 
   PoseState state_;
   std::vector<Step> undo_, redo_;
+  bool joined_ = false;
   int hand_gesture_ = 0;  // by hand, under way; 0: none
   // The drag that is under way.
   int gesture_ = 0;  // 0: none

@@ -62,26 +62,37 @@ StudioSession::StudioSession(const StudioPosture& start)
 std::optional<PoseResult> StudioSession::Do(const std::vector<Fields>& ops, bool live) {
   std::vector<PoseStep> steps;
   for (const Fields& op : ops) steps.push_back(ParsePoseJson(op, pose_.posture()));
-  std::optional<PoseSession> before;
-  if (steps.size() > 1) before = pose_;
-  std::optional<PoseResult> result;
-  try {
-    for (size_t k = 0; k < steps.size(); ++k) {
-      if (const auto* history = std::get_if<HistoryStep>(&steps[k])) {
-        const bool undo = *history == HistoryStep::kUndo;
-        if (!(undo ? pose_.Undo() : pose_.Redo())) {
-          throw InputError(undo ? "there is nothing to undo" : "there is nothing to redo");
-        }
-        continue;
-      }
-      const auto solved =
-          pose_.Apply(std::get<Operation>(steps[k]), live ? kLiveIterations : kAllIterations);
-      if (solved) result = solved;
+  if (steps.size() == 1) return DoSteps(steps, live);
+  for (const PoseStep& step : steps) {
+    if (std::holds_alternative<HistoryStep>(step)) {
+      throw InputError("undo and redo: expected to be the only operation of a message");
     }
-  } catch (const InputError& error) {
-    if (before) pose_ = std::move(*before);
-    throw InputError(std::string(ops.size() > 1 ? "nothing was done: " : "") + error.what());
   }
+  const PoseSession before = pose_;
+  try {
+    return DoSteps(steps, live);
+  } catch (const InputError& error) {
+    pose_ = before;
+    throw InputError(std::string("nothing was done: ") + error.what());
+  }
+}
+
+std::optional<PoseResult> StudioSession::DoSteps(const std::vector<PoseStep>& steps, bool live) {
+  std::optional<PoseResult> result;
+  for (size_t k = 0; k < steps.size(); ++k) {
+    if (const auto* history = std::get_if<HistoryStep>(&steps[k])) {
+      const bool undo = *history == HistoryStep::kUndo;
+      if (!(undo ? pose_.Undo() : pose_.Redo())) {
+        throw InputError(undo ? "there is nothing to undo" : "there is nothing to redo");
+      }
+      continue;
+    }
+    const auto solved =
+        pose_.Apply(std::get<Operation>(steps[k]), live ? kLiveIterations : kAllIterations);
+    if (solved) result = solved;
+    pose_.Join(true);
+  }
+  pose_.Join(false);
   ++revision_;
   return result;
 }

@@ -39,7 +39,7 @@ class StudioSession {
 
   const PoseSession& pose() const { return pose_; }
 
-  // Does all operations or none. Throws InputError.
+  // Does all operations, as one step of the history, or none. Throws InputError.
   std::optional<PoseResult> Do(const std::vector<Fields>& ops, bool live);
   // Another posture, as one step of the history.
   void Load(const StudioPosture& posture);
@@ -57,6 +57,7 @@ class StudioSession {
   void RemovePhoto();
 
  private:
+  std::optional<PoseResult> DoSteps(const std::vector<PoseStep>& steps, bool live);
   StudioDocument& document() { return documents_[pose_.state().document]; }
   void KeepPhoto(const std::string& file, const std::string& bytes);
   Json State(bool live);

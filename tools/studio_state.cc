@@ -26,7 +26,7 @@ Json LimitJson(const JointLimit& limit, bool locked) {
             {"axis", VectorJson(limit.axis)},
             {"hinge_axis", VectorJson(limit.hinge_axis)},
             {"bend", {limit.bend_min / kDegree, limit.bend_max / kDegree}},
-            {"play", limit.hinge_play / kDegree},
+            {"hinge_play", limit.hinge_play / kDegree},
             {"twist", twist}};
   }
   if (limit.swing_max >= kPi && limit.twist_min <= -kPi && limit.twist_max >= kPi) {
@@ -35,7 +35,7 @@ Json LimitJson(const JointLimit& limit, bool locked) {
   return {{"kind", "swing_twist"},
           {"axis", VectorJson(limit.axis)},
           {"swing_centre", VectorJson(limit.swing_centre)},
-          {"swing", limit.swing_max / kDegree},
+          {"swing_max", limit.swing_max / kDegree},
           {"twist", twist}};
 }
 
@@ -52,7 +52,7 @@ Json BodyJson(const Body& body) {
   for (const Node& node : body.nodes) {
     nodes.push_back({{"name", node.name},
                      {"parent", node.parent},
-                     {"link", body.links[node.link].name},
+                     {"link", node.link},
                      {"radius_m", node.radius}});
   }
   const PosedBody rest = PoseBody(body, RestPose(body));
