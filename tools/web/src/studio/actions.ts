@@ -97,8 +97,7 @@ export class Actions {
     const apart = store.body[from.figure].nodes[from.node].radius_m + node.radius_m;
     const way = a.sub(b);
     if (way.length() < apart + kTouching) return {};
-    const link = store.findLink(to.figure, node.link);
-    const frame = new Quaternion(...store.state.figures[to.figure].frames[link]);
+    const frame = new Quaternion(...store.state.figures[to.figure].frames[node.link]);
     return { offset: way.setLength(apart).applyQuaternion(frame.invert()).toArray() as Vec };
   }
 

@@ -36,7 +36,7 @@ export function exposeHook(store: Store, sender: Sender, viewport: Viewport): vo
     async idle() {
       await sender.idle();
       // One picture for the store, one for the stage.
-      for (let k = 0; k < 3; ++k) await new Promise((drawn) => requestAnimationFrame(drawn));
+      for (let k = 0; k < 2; ++k) await new Promise((drawn) => requestAnimationFrame(drawn));
     },
   };
 }

@@ -11,6 +11,7 @@ interface Clip {
   id: string;
   name: string;
   frames?: number;
+  error?: string; // why it cannot be used
 }
 interface Progress {
   stage?: string;
@@ -20,7 +21,7 @@ interface Progress {
 }
 interface Done {
   exit_code: number;
-  verdict: string | string[];
+  verdict: string;
   requirements: Requirement[];
   report: boolean;
 }
@@ -58,11 +59,12 @@ export class TryPanel {
 
   private async fill(): Promise<void> {
     const { files } = await get<{ files: Clip[] }>("/api/clips");
-    const options = files.map(({ id, name, frames }) => [id, frames ? `${name} (${frames} frames)` : name] as [string, string]);
+    const said = ({ name, frames, error }: Clip) =>
+      error ? `${name}: ${error}` : frames ? `${name} (${frames} frames)` : name;
+    const options = files.map((clip) => [clip.id, said(clip)] as [string, string]);
     const pick = (figure: "a" | "b", k: number) => {
       const now = this.clips[figure].element.value;
-      const named = files.find(({ id, name }) => name === this.store.start.clips?.[figure].file || id === this.store.start.clips?.[figure].file);
-      const likely = named ?? files.find(({ name }) => new RegExp(`(^|[/ ])${figure}\\.`).test(name)) ?? files[k];
+      const likely = files.find(({ id }) => id === `start/${figure}`) ?? files.find(({ name }) => new RegExp(`(^|[/ ])${figure}\\.`).test(name)) ?? files[k];
       this.clips[figure].set(now || likely?.id || "", options);
     };
     pick("a", 0);
@@ -101,7 +103,7 @@ export class TryPanel {
       this.log.scrollTop = this.log.scrollHeight;
     });
     on<Done>("done", (done) => this.finish(job, done));
-    on<{ error: string }>("failed", ({ error }) => this.fail(error));
+    on<{ error: string; stopped?: boolean }>("failed", ({ error, stopped }) => this.fail(error, stopped));
     events.onerror = () => {
       if (events.readyState === EventSource.CLOSED && this.job === job) this.fail("The run's events have ended.");
     };
@@ -155,23 +157,22 @@ export class TryPanel {
     this.stop.disabled = true;
     this.outcome.hidden = false;
   }
-  private fail(error: string): void {
+  private fail(error: string, stopped = false): void {
     this.over();
-    this.progress.querySelector("b")!.textContent = "stopped";
+    this.progress.querySelector("b")!.textContent = stopped ? "stopped" : "failed";
     this.outcome.replaceChildren(element("p", { class: "bad" }, error));
   }
 
   private finish(job: string, { exit_code, verdict, requirements, report }: Done): void {
     this.over();
     this.progress.querySelector("b")!.textContent = exit_code === 130 ? "stopped" : "done";
-    const sentences = Array.isArray(verdict) ? verdict : [verdict].filter(Boolean);
     const table = element("table", {});
     list(table, requirements ?? [], (r) => r, (r) => element("tr", { class: r.met ? "" : "missed", title: r.where },
       element("td", { class: r.met ? "good" : "bad" }, r.met ? "✓" : "✕"), element("td", {}, r.name),
       element("td", { class: "number" }, `${Number(r.value.toPrecision(3))} ${r.unit}`)));
     const files = kFiles.map((name) => element("a", { href: address("/api/solve/file", { job, name }), download: name }, name));
     this.outcome.replaceChildren(
-      element("p", { class: exit_code === 0 ? "good" : "bad" }, sentences[0] ?? `Exit code ${exit_code}.`),
+      element("p", { class: exit_code === 0 ? "good" : "bad" }, verdict),
       ...(report ? [row(button("Open the report", "players, curves and tables of this run", () => this.open(job), "primary"))] : []),
       table, element("p", { class: "files" }, ...files));
   }

@@ -6,7 +6,7 @@ import type { Pick, Store } from "./store";
 import type { View } from "./view";
 
 const kReach = 13; // px round a handle
-const kBehind = 7; // px that a hidden handle counts as further away
+const kBehind = 5; // px that a hidden handle counts as further away
 
 // Nodes that take their neighbours' place in the crowd: larger handles.
 const kMinor = new Set(["neck", "head_top", "root"]);

@@ -35,7 +35,9 @@ export class Pointer {
     for (const view of viewport.views) {
       const { element } = view;
       element.addEventListener("pointerdown", (event) => this.down(event, view), { capture: true });
-      element.addEventListener("pointermove", (event) => this.move(event, view), { capture: true });
+      element.addEventListener("pointermove", (event) => this.move(event), { capture: true });
+      // After the gizmo, which knows by then whether it is meant.
+      element.addEventListener("pointermove", (event) => this.hover(event, view));
       element.addEventListener("pointerup", (event) => this.up(event));
       element.addEventListener("pointercancel", () => this.cancel());
       element.addEventListener("pointerleave", () => {
@@ -80,18 +82,19 @@ export class Pointer {
     return view.ray(event.clientX, event.clientY).intersectPlane(plane, new Vector3());
   }
 
-  private move(event: PointerEvent, view: View): void {
+  private hover(event: PointerEvent, view: View): void {
+    if (this.press || event.buttons !== 0 || this.gizmo.dragging) return;
+    const { store } = this;
+    const over = view.name === "main" && this.gizmo.hovered;
+    const hovered = over ? null : pickNode(store, view, event.clientX, event.clientY);
+    const old = store.ui.hovered;
+    if (hovered?.figure !== old?.figure || hovered?.node !== old?.node) store.set({ hovered });
+    view.element.classList.toggle("grab", hovered !== null);
+  }
+
+  private move(event: PointerEvent): void {
     const { press, store } = this;
-    if (!press) {
-      if (event.buttons !== 0 || this.gizmo.dragging) return;
-      const over = view.name === "main" && this.gizmo.hovered;
-      const hovered = over ? null : pickNode(store, view, event.clientX, event.clientY);
-      const old = store.ui.hovered;
-      if (hovered?.figure !== old?.figure || hovered?.node !== old?.node) store.set({ hovered });
-      view.element.classList.toggle("grab", hovered !== null);
-      return;
-    }
-    if (event.pointerId !== press.pointer) return;
+    if (!press || event.pointerId !== press.pointer) return;
     if (Math.hypot(event.clientX - press.x, event.clientY - press.y) > kClick) press.moved = true;
     if (!press.moved) return;
     if (store.ui.tool === "photo-move" && !press.pick) {

@@ -20,7 +20,7 @@ export interface Limits {
 
 export interface FigureBody {
   stature: number;
-  nodes: { name: string; parent: number; radius_m: number; link: string }[]; // link: carries it
+  nodes: { name: string; parent: number; radius_m: number; link: number }[]; // link: carries it
   links: { name: string; parent: number; node: string | null; limits: Limits }[];
 }
 export type Body = Record<FigureName, FigureBody>;
@@ -147,7 +147,7 @@ export interface ClipInfo {
 export interface Start {
   template?: string;
   photo?: boolean;
-  clips?: Record<FigureName, ClipInfo> | null;
+  clips?: Partial<Record<FigureName, ClipInfo>>;
   library?: string;
 }
 export interface Reply {

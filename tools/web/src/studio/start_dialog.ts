@@ -40,8 +40,9 @@ export function openStartDialog(store: Store, session: Session, templates: Templ
 }
 
 function clipPart(store: Store, go: (what: object) => Promise<void>): HTMLElement {
-  const { clips } = store.start;
-  if (!clips) return section("A frame of the clips", note("Start the studio with --clip-a A --clip-b B to take bodies and postures from clips."));
+  const { a, b } = store.start.clips ?? {};
+  if (!a || !b) return section("A frame of the clips", note("Start the studio with --clip-a A --clip-b B to take bodies and postures from clips."));
+  const clips = { a, b };
   const frame = { a: 0, b: 0 };
   let together = false;
   const bars = (["a", "b"] as const).map((figure) => {
@@ -52,7 +53,7 @@ function clipPart(store: Store, go: (what: object) => Promise<void>): HTMLElemen
       frame[figure] = Number(input.value);
       output.textContent = `frame ${input.value} · ${(frame[figure] / fps).toFixed(2)} s`;
     });
-    return element("label", { class: "slider" }, element("span", { class: `figure-${figure}`, title: `${file}, ${stature.toFixed(2)} m` }, `${figure}: ${file.split("/").pop()}`), input, output);
+    return element("label", { class: "slider" }, element("span", { class: `figure-${figure}`, title: `${stature.toFixed(2)} m tall` }, `${figure}: ${file}`), input, output);
   });
   const both = check("as captured in one world", "off: each upright in front of the other, 1 m apart", (on) => (together = on));
   return section("A frame of the clips", ...bars, row(both.label,

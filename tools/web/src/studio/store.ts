@@ -98,9 +98,6 @@ export class Store {
   place({ figure, node }: Pick): Vec {
     return this.state.figures[figure].nodes[node];
   }
-  findLink(figure: FigureName, name: string): number {
-    return this.body[figure].links.findIndex((link) => link.name === name);
-  }
 
   // The joint that a node stands for: the one at its place, else the one that carries it.
   jointOf({ figure, node }: Pick): number {
