@@ -42,6 +42,8 @@ int RunVerify(const std::string& folder, bool json);
 int RunCompare(const std::vector<std::string>& folders, bool json);
 int RunTangles(const std::string& path, bool json);
 int RunMap(const ClipOptions& clip, bool json, bool yaml);
+// The clip with left and right exchanged.
+int RunMirror(const ClipOptions& options, const std::string& out, bool force);
 // What is in a motion or character file of any format.
 int RunInspect(const ClipOptions& clip, bool json);
 int RunConfig(const std::string& config_path, const std::vector<std::string>& set);

@@ -178,6 +178,14 @@ struct CommandLine {
       code = RunMap(map_clip, json, yaml);
     });
 
+    CLI::App* mirror = app->add_subcommand("mirror", "a clip with left and right exchanged");
+    mirror->add_option("file", map_clip.path, "clip: BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
+        ->required();
+    mirror->add_option("--out", picture, "file to write, in the clip's own format")->required();
+    mirror->add_flag("--force", force, "overwrite the file");
+    AddClipOptions(mirror, &map_clip, "", false);
+    mirror->callback([this] { code = RunMirror(map_clip, picture, force); });
+
     CLI::App* inspect = app->add_subcommand("inspect", "what is in a motion or character file");
     inspect->add_option("file", map_clip.path, "BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
         ->required();
