@@ -75,6 +75,17 @@ Image TemplateSheet(const TemplatePosture& posture, int width, int height) {
   return TileImages({views});
 }
 
+Image SolvedPicture(const std::string& folder, const SheetInstant& instant,
+                    const std::string& label, int width, int height) {
+  const MeasureSubject subject = SubjectFromJson(ReadReport(folder), folder + "/report.json");
+  const SceneMotion scene = ReadSceneGlb(folder + "/scene.glb");
+  const MotionView view = ViewOfScene(scene, subject.body);
+  PostureSample sample;
+  view.at(std::lround(instant.share * (view.num_frames - 1)), &sample);
+  return LabelledPicture(CapsulesAt(sample, subject),
+                         FacingOfA(sample) + kDegree * instant.azimuth_deg, label, width, height);
+}
+
 Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& instants,
                    bool baseline, int width, int height) {
   const Json report = ReadReport(folder);

@@ -21,6 +21,10 @@ struct SheetInstant {
 Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& instants,
                    bool baseline, int width = 360, int height = 450);
 
+// One instant of the solved motion, with a label above.
+Image SolvedPicture(const std::string& folder, const SheetInstant& instant,
+                    const std::string& label, int width, int height);
+
 // A template posture from four sides: the front of a, his left, behind, his right.
 Image TemplateSheet(const TemplatePosture& posture, int width = 360, int height = 420);
 

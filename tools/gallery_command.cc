@@ -9,11 +9,15 @@
 #include "tools/contact_sheet.h"
 #include "tools/files.h"
 #include "tools/gallery_page.h"
+#include "tools/html.h"
 
 namespace retarget {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr size_t kOverviewColumns = 5;
+constexpr int kPicture = 260;  // pixels
 
 // A folder with template.yaml and two clips, called a and b, of any format.
 struct HoldFolder {
@@ -96,6 +100,7 @@ int RunGallery(const GalleryOptions& options) {
   const std::string page = options.out + "/index.html";
   int worst = kDone;
   std::vector<GalleryEntry> entries;
+  std::vector<std::vector<Image>> overview;
   for (const HoldFolder& hold : holds) {
     fmt::print("{:<24}", hold.name);
     std::fflush(stdout);
@@ -106,10 +111,14 @@ int RunGallery(const GalleryOptions& options) {
     const Image strip =
         ContactSheet(hold.run.out, {{0.02, 35}, {0.5, 35}, {0.5, 215}, {0.98, 35}}, true, 300, 340);
     WriteFile(hold.run.out + "/strip.png", EncodePng(strip), true);
+    if (entries.size() % kOverviewColumns == 0) overview.emplace_back();
+    overview.back().push_back(
+        SolvedPicture(hold.run.out, {0.5, 35}, Words(hold.name), kPicture, kPicture));
     fmt::print("{}\n", GalleryLine(entry.report));
     entries.push_back(std::move(entry));
   }
-  OutputSet output(options.out, {"index.html"}, {}, true);
+  OutputSet output(options.out, {"index.html", "overview.png"}, {}, true);
+  output.Add("overview.png", EncodePng(TileImages(overview)));
   output.Add("index.html", FormatGallery(entries));
   output.Commit();
   fmt::print("written to {}\n", page);

@@ -103,7 +103,7 @@ TEST_P(Holds, TheGeneratorMakesTheClips) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Holds, testing::ValuesIn(HoldNames()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& hold) { return hold.param; });
 
 TEST(Gallery, RunsHoldsAndShowsThem) {
   const Scratch scratch;
