@@ -19,14 +19,14 @@ constexpr double kSeconds = 10.5;
 const Vec3 kLeftArm(-52, -76, -14);
 const Vec3 kLeftForeArm(23, -30, 6);
 const Vec3 kLeftHand(0, 7, -9);
-const Vec3 kRightArm(32, 18, 7);
-const Vec3 kRightForeArm(-25, 41, 17);
+const Vec3 kRightArm(31, 16, 7);
+const Vec3 kRightForeArm(-25, 48, 17);
 const Vec3 kRightHand(0, -4, -12);
 const Vec3 kLeftUpLeg(-73, 23, 2);
 const Vec3 kLeftLeg(39, 0, 0);
 const Vec3 kLeftFoot(21, -14, -5);
-const Vec3 kRightUpLeg(-77, -82, 9);
-const Vec3 kRightLeg(30, -16, 17);
+const Vec3 kRightUpLeg(-89, -78, 7);
+const Vec3 kRightLeg(37, -6, 9);
 const Vec3 kRightFoot(33, 26, 7);
 
 // From 0 kneeling to 1 standing: the trunk goes ahead first, then up; the foot behind comes last.

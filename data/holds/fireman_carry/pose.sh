@@ -40,7 +40,7 @@
   --rotate b/left_elbow=23.3,-29.8,6.3 \
   --rotate b/left_wrist=0.0,6.9,-9.0 \
   --option root=off --settle --settle \
-  --drag a/right_hand=-0.27,1.15,0.42 --drag b/right_wrist=-0.21,1.20,0.43 \
+  --drag a/right_hand=-0.22,1.17,0.46 --drag b/right_wrist=-0.16,1.22,0.43 \
   --hold a/right_hand=b/right_wrist --settle \
   --leader b=partner \
   --supports a=left_ankle,left_toe,right_ankle,right_toe --supports b= \

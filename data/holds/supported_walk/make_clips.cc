@@ -42,9 +42,9 @@ Posture Helper(const Actor& actor, const Walk& walk, double t) {
   right.protraction_deg = 2 + 3 * r(21);
   right.knuckles =
       Vec3(0.23, 0.27, 0.06) + Vec3(0.015 * r(22), 0.02 * r(23) - 0.02 * hitch, 0.015 * r(24));
-  right.pointing = Vec3(-0.55, 0.78, -0.20 + 0.1 * r(25));
+  right.pointing = Vec3(-0.59, 0.76, -0.23 + 0.1 * r(25));
   right.palm = Vec3(-0.53, -0.64, -0.56);
-  right.elbow = Vec3(0.24, -0.76, -0.61 + 0.08 * r(26));
+  right.elbow = Vec3(0.10, -0.79, -0.59 + 0.08 * r(26));
   right.curl_deg = 60 + 10 * r(27);
   return p;
 }
@@ -68,9 +68,9 @@ Posture Injured(const Actor& actor, const Walk& walk, double t) {
   ArmPosture& right = p.arms[kRight];  // over the other's shoulders
   right.shrug_deg = 19 + 3 * r(10) + 4 * pain;
   right.protraction_deg = -17 + 3 * r(11);
-  right.knuckles = Vec3(0.62, 0.26, 0.10) + Vec3(0.02 * r(12), 0.02 * r(13), 0.02 * r(14));
-  right.pointing = Vec3(0.40, -0.76, 0.50 + 0.1 * r(15));
-  right.palm = Vec3(0.53, -0.24, -0.82);
+  right.knuckles = Vec3(0.58, 0.26, 0.14) + Vec3(0.02 * r(12), 0.02 * r(13), 0.02 * r(14));
+  right.pointing = Vec3(0.00, -0.60, 0.78 + 0.1 * r(15));
+  right.palm = Vec3(0.63, -0.63, -0.44);
   right.elbow = Vec3(0.23, 0.17, -0.96);
   right.curl_deg = 40 + 8 * r(16);
 

@@ -18,9 +18,9 @@
   --rotate a/left_elbow=-43.9,-54.6,-24.4 \
   --rotate a/left_wrist=0.0,-19.4,-37.3 \
   --rotate a/right_clavicle=0.0,0.0,-4.0 \
-  --rotate a/right_shoulder=-28.6,-22.3,50.2 \
-  --rotate a/right_elbow=-22.7,124.2,97.1 \
-  --rotate a/right_wrist=0.0,29.4,30.2 \
+  --rotate a/right_shoulder=-33.2,-34.5,52.0 \
+  --rotate a/right_elbow=-30.3,110.9,107.8 \
+  --rotate a/right_wrist=0.0,25.1,45.6 \
   --stature b=1.80 --root b=0.405,0.968,0,2,0,5 \
   --rotate b/waist=2.0,0.0,1.0 \
   --rotate b/chest=2.0,0.0,1.0 \
@@ -32,9 +32,9 @@
   --rotate b/right_knee=38.5,0.0,0.0 \
   --rotate b/right_ankle=-11.9,-4.3,-0.4 \
   --rotate b/right_clavicle=0.0,-20.0,-20.0 \
-  --rotate b/right_shoulder=9.2,-1.8,10.7 \
-  --rotate b/right_elbow=32.9,84.4,-32.2 \
-  --rotate b/right_wrist=0.0,32.8,17.6 \
+  --rotate b/right_shoulder=9.1,1.9,11.6 \
+  --rotate b/right_elbow=33.9,81.4,-31.3 \
+  --rotate b/right_wrist=0.0,32.1,17.8 \
   --rotate b/left_shoulder=44.2,-10.7,-56.6 \
   --rotate b/left_elbow=-43.1,-69.5,-32.9 \
   --rotate b/left_wrist=0.0,11.7,6.9 \
