@@ -101,7 +101,7 @@ TEST(StudioSolve, CanBeStoppedAtAnyTime) {
   Studio studio;
   const std::string session = OpenHug(&studio);
   Json request = Request(session);
-  request["settings"] = {{"solve.tolerance", 1e-12}};
+  request["settings"] = {{"solve.polish_decrease", 1e-12}};
   // Before anything: at once, without a result.
   std::string job = Start(&studio, request);
   EXPECT_EQ(studio.Post("/api/solve/stop", {{"job", job}}).status, 200);
@@ -109,7 +109,7 @@ TEST(StudioSolve, CanBeStoppedAtAnyTime) {
   EXPECT_EQ(events.back().name, "failed");
   EXPECT_EQ(events.back().data["stopped"], true);
   // While it iterates: the best so far, with a report.
-  request["settings"] = {{"solve.start", "template"}, {"solve.tolerance", 1e-12}};
+  request["settings"] = {{"solve.start", "template"}, {"solve.polish_decrease", 1e-12}};
   job = Start(&studio, request);
   Events(&studio, job, [](const SentEvent& e) { return e.name == "progress"; });
   EXPECT_EQ(studio.Post("/api/solve/stop", {{"job", job}}).status, 200);
