@@ -20,7 +20,8 @@ namespace retarget {
 struct GltfSelect {
   std::string animation;
   std::string skin;
-  bool at_rest = false;  // the character alone, one frame, whatever animations there are
+  bool any_animation = false;  // of several, none of them selected, the first
+  bool at_rest = false;        // the character alone, one frame, whatever animations there are
 };
 
 // What stands behind a joint of the rig: its transform in metres is

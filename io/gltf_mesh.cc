@@ -1,11 +1,12 @@
-// BoneRadii of io/gltf_clip.h.
+// BoneRadii of io/gltf_clip.h, and io/gltf_mesh.h.
+#include "io/gltf_mesh.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "io/gltf_clip.h"
 #include "io/gltf_node.h"
 
 namespace retarget {
@@ -96,6 +97,30 @@ class VertexCollector {
 };
 
 }  // namespace
+
+void FindSkinTops(const LoadedGltf& gltf, GltfClip* clip) {
+  const std::vector<std::vector<Vec3>> vertices = VertexCollector(gltf, *clip).Collect();
+  Rig& rig = clip->motion.rig;
+  RigFrame rest;
+  for (const RigJoint& joint : rig.joints) {
+    rest.translation.push_back(joint.offset);
+    rest.rotation.push_back(joint.rest_rotation);
+  }
+  const PosedRig posed = PoseRig(rig, rest);
+  std::vector<double> top(rig.joints.size(), -INFINITY);
+  for (size_t j = rig.joints.size(); j-- > 0;) {  // children first
+    for (const Vec3& v : vertices[j]) {
+      top[j] = std::max(top[j], (posed.position[j] + posed.rotation[j] * v).y());
+    }
+    const int parent = rig.joints[j].parent;
+    if (parent >= 0) top[parent] = std::max(top[parent], top[j]);
+  }
+  for (size_t j = 0; j < top.size(); ++j) {
+    const double rise = top[j] - posed.position[j].y();
+    if (!(rise > 0) || !std::isfinite(rise)) continue;
+    rig.joints[j].skin_top = posed.rotation[j].conjugate() * Vec3(0, rise, 0);
+  }
+}
 
 std::vector<double> BoneRadii(const GltfClip& clip) {
   const LoadedGltf gltf = LoadGltf(clip.bytes, clip.name, clip.folder);

@@ -9,6 +9,7 @@
 
 #include "io/gltf_character.h"
 #include "io/gltf_clip.h"
+#include "io/gltf_mesh.h"
 #include "io/gltf_skeleton.h"
 #include "io/gltf_tracks.h"
 #include "io/gltf_vrm.h"
@@ -23,8 +24,9 @@ constexpr size_t kMostJointFrames = 20'000'000;
 std::string Quoted(const std::string& text) { return "\"" + Printable(text) + "\""; }
 
 // The selected animation, or -1 where the file has none.
-int ChooseAnimation(const tinygltf::Model& model, const std::string& select,
-                    const std::string& name) {
+int ChooseAnimation(const tinygltf::Model& model, const GltfSelect& wanted, const std::string& name,
+                    std::vector<std::string>* notes) {
+  const std::string& select = wanted.animation;
   const std::vector<tinygltf::Animation>& animations = model.animations;
   constexpr size_t kShown = 12;
   std::string list;
@@ -33,9 +35,14 @@ int ChooseAnimation(const tinygltf::Model& model, const std::string& select,
   }
   if (animations.size() > kShown) list += ", ...";
   if (select.empty()) {
-    if (animations.size() > 1) {
+    if (animations.size() > 1 && !wanted.any_animation) {
       throw InputError(
           fmt::format("{}: {} animations, select one: {}", name, animations.size(), list));
+    }
+    if (animations.size() > 1) {
+      notes->push_back(
+          fmt::format("{} animations, the first is taken: {}", animations.size(), list));
+      return 0;
     }
     return static_cast<int>(animations.size()) - 1;
   }
@@ -128,7 +135,7 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
   GltfAccessors accessors(model, clip.name);
   // Of a bare skeleton the animation tells what the joints are, even where it is not played.
   const bool any = select.at_rest && select.animation.empty() && !model.animations.empty();
-  const int animation = any ? 0 : ChooseAnimation(model, select.animation, name);
+  const int animation = any ? 0 : ChooseAnimation(model, select, name, &clip.notes);
   GltfTracks tracks;
   if (animation >= 0 && !(select.at_rest && !model.skins.empty())) {
     if (!select.at_rest) clip.animation = model.animations[animation].name;
@@ -155,6 +162,7 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
     clip.map = MapOfVrmBones(bones, joint_of_node);
     clip.faces_minus_z = bones.faces_minus_z;
   }
+  FindSkinTops(gltf, &clip);
   return clip;
 }
 

@@ -15,7 +15,10 @@ struct RigJoint {
   int parent = -1;               // joint, always before this one; -1 for a root
   Vec3 offset = Vec3::Zero();    // rest translation in the parent's frame (file units)
   std::optional<Vec3> end_site;  // a leaf's end point in its own frame (file units)
-  bool translates = false;       // the file moves this joint (position channels on all axes)
+  // Straight above the joint at rest, where the skin of it and its children is highest, in its own
+  // frame (file units); of a character with a mesh.
+  std::optional<Vec3> skin_top = {};
+  bool translates = false;  // the file moves this joint (position channels on all axes)
   Quat rest_rotation = Quat::Identity();  // in the parent's frame; of a BVH always this
   // A joint that the file can only turn about some axes (unit, in its own frame at rest): its
   // rotation is the product of turns about them, the first leftmost. None: a rigid bone.

@@ -12,6 +12,7 @@ namespace {
 constexpr int kSamples = 48;
 // Shares of the stature.
 constexpr double kNeckHead = 0.050, kShoulderNeck = 0.015;
+constexpr double kShortestHead = 0.08, kTallestHead = 0.30;  // from its joint to the vertex
 constexpr double kSamePlace = 0.005;  // joints nearer than this stand at one place
 constexpr double kApart = 0.04;       // of the neck, and of the root if there is a choice
 constexpr double kBarelyApart = 0.02;
@@ -116,14 +117,23 @@ class PointFinder {
     });
   }
 
+  bool IsShort(const RigPoints& p) const {
+    return MedianDistance(poses_, p.head, p.head_top) < kShortestHead * stature_;
+  }
+
   void FindHead(RigPoints* p) const {
     if (map_.head >= 0) {
       p->head = JointPoint(map_.head);
-      const Vec3 end = rig_.joints[map_.head].end_site.value_or(Vec3::Zero());
+      const RigJoint& head = rig_.joints[map_.head];
       if (map_.head_top >= 0) {
         p->head_top = JointPoint(map_.head_top);
-      } else if (end.norm() > 0) {
-        p->head_top = {map_.head, end};
+      } else if (head.end_site.value_or(Vec3::Zero()).norm() > 0) {
+        p->head_top = {map_.head, *head.end_site};
+      }
+      // The tail of a leaf bone ends anywhere in the head; the skin does not.
+      if (head.skin_top && (!p->head_top.known() || IsShort(*p))) {
+        const RigPoint top = {map_.head, *head.skin_top};
+        if (MedianDistance(poses_, p->head, top) < kTallestHead * stature_) p->head_top = top;
       }
       return;
     }

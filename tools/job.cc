@@ -95,7 +95,11 @@ void TellNotes(const Job& job) {
   }
 }
 
-std::string CharacterScene(const Job& job, const RetargetResult& result, const std::string& scene) {
+namespace {
+
+// `motion`: of the scene's bodies, from its first frame on; `scene`: its file.
+std::string ShowCharacters(const Job& job, const std::array<Clip, 2>& motion,
+                           const std::string& scene, std::vector<std::string>* notes) {
   std::array<ScaledGltf, 2> scaled;
   std::array<SceneCharacter, 2> character;
   std::array<const SceneCharacter*, 2> shown = {nullptr, nullptr};
@@ -103,28 +107,44 @@ std::string CharacterScene(const Job& job, const RetargetResult& result, const s
     const LoadedClip& clip = job.clip[f];
     const auto* gltf = std::get_if<GltfClip>(&clip.file.original);
     if (gltf == nullptr) continue;
-    RigMotion motion;
-    motion.rig = clip.file.motion.rig;
-    motion.frame_time = 1 / result.scene.fps();
-    for (int t = 0; t < result.scene.num_frames(); ++t) {
-      const double time = clip.options.start + (job.frames.first + t) / result.scene.fps();
-      motion.frames.push_back(
-          clip.binding->Apply(SampleRig(clip.file.motion, time), result.solved[f].frames[t]));
+    const double fps = motion[f].fps;
+    RigMotion own;
+    own.rig = clip.file.motion.rig;
+    own.frame_time = 1 / fps;
+    for (size_t t = 0; t < motion[f].frames.size(); ++t) {
+      const double time = clip.options.start + (job.frames.first + static_cast<double>(t)) / fps;
+      own.frames.push_back(
+          clip.binding->Apply(SampleRig(clip.file.motion, time), motion[f].frames[t]));
     }
-    scaled[f] = ScaleGltf(*gltf, motion, clip.binding->stature_ratio());
+    scaled[f] = ScaleGltf(*gltf, own, clip.binding->stature_ratio());
     character[f] = {&scaled[f].clip, &scaled[f].motion};
     shown[f] = &character[f];
   }
+  return FormatCharacterScene(scene, shown, notes);
+}
+
+std::string SceneBytes(const std::array<Body, 2>& body, const std::array<Clip, 2>& clips) {
+  return FormatSceneGlb(
+      {{"a", &body[0], &clips[0], kColourA}, {"b", &body[1], &clips[1], kColourB}}, kGenerator);
+}
+
+}  // namespace
+
+void CheckCharacters(const Job& job) {
+  std::array<Clip, 2> first = job.input.clip;
+  for (Clip& clip : first) clip.frames.resize(1);
+  ShowCharacters(job, first, SceneBytes(job.input.body, first), nullptr);
+}
+
+std::string CharacterScene(const Job& job, const RetargetResult& result, const std::string& scene) {
   std::vector<std::string> notes;
-  std::string bytes = FormatCharacterScene(scene, shown, &notes);
+  std::string bytes = ShowCharacters(job, result.solved, scene, &notes);
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   return bytes;
 }
 
 std::string SceneBytes(const Scene& scene, const std::array<Clip, 2>& clips) {
-  return FormatSceneGlb(
-      {{"a", &scene.body[0], &clips[0], kColourA}, {"b", &scene.body[1], &clips[1], kColourB}},
-      kGenerator);
+  return SceneBytes(scene.body, clips);
 }
 
 }  // namespace retarget

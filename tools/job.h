@@ -32,6 +32,9 @@ Job LoadJob(const RetargetOptions& options);  // throws InputError
 // What was recognised in the clips, to stderr.
 void TellNotes(const Job& job);
 
+// Throws InputError where CharacterScene will: nobody wants to wait for a solve to hear it.
+void CheckCharacters(const Job& job);
+
 // The scene of the solved motion with the glTF characters of the clips in place of their figures.
 std::string CharacterScene(const Job& job, const RetargetResult& result, const std::string& scene);
 

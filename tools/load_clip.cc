@@ -17,7 +17,9 @@ constexpr double kThinnest = 0.6, kThickest = 1.5;
 LoadedClip ReadClip(const ClipOptions& options) {
   LoadedClip clip;
   clip.options = options;
-  clip.file = ReadClipFile(ParseClipPath(options.path), options.amc_fps);
+  ClipPath path = ParseClipPath(options.path);
+  path.select.any_animation = options.any_animation;
+  clip.file = ReadClipFile(path, options.amc_fps);
   clip.hash = HashOf(clip.file.bytes);
   return clip;
 }

@@ -39,6 +39,7 @@ Json InputsJson(const RetargetOptions& options, const Job& job) {
     }
   }
   inputs["template"] = {{"file", options.template_path},
+                        {"name", job.input.posture.name},
                         {"hash", HashOf(ReadFile(options.template_path))},
                         {"at_s", options.template_at}};
   inputs["frames"] = {job.frames.first, job.frames.last};

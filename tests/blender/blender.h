@@ -20,15 +20,17 @@ namespace retarget {
 // World positions per joint and frame, in the file's unit, Y up.
 using JointCurves = std::map<std::string, std::vector<Vec3>>;
 
-// What Blender makes of a .glb, .gltf or .bvh file at `fps`; empty, with a failure, where it does
-// not read it.
-inline JointCurves BlenderJoints(const std::string& file, double fps) {
+// What Blender makes of a .glb, .gltf or .bvh file at `fps`, of the named animation where there are
+// several; empty, with a failure, where it does not read it.
+inline JointCurves BlenderJoints(const std::string& file, double fps,
+                                 const std::string& animation = "") {
   const std::string stem =
       (std::filesystem::temp_directory_path() / ("blender-" + std::to_string(::getpid()))).string();
   const std::string command =
       "blender --background --factory-startup --python-exit-code 1 --python '" +
       ProjectPath("tests/blender/blender_joints.py") + "' -- '" + file + "' '" + stem +
-      ".json' --fps " + std::to_string(fps) + " >'" + stem + ".log' 2>&1";
+      ".json' --fps " + std::to_string(fps) +
+      (animation.empty() ? "" : " --animation '" + animation + "'") + " >'" + stem + ".log' 2>&1";
   const int status = std::system(command.c_str());
   const std::string log = ReadWholeFile(stem + ".log");
   const std::string json = ReadWholeFile(stem + ".json");

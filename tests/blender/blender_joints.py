@@ -1,7 +1,7 @@
 """Where Blender puts the joints of an animated file, frame by frame: an independent reader.
 
     blender --background --factory-startup --python-exit-code 1 \\
-        --python blender_joints.py -- FILE OUT.json --fps N
+        --python blender_joints.py -- FILE OUT.json --fps N [--animation NAME]
 
 FILE is .glb, .gltf or .bvh. Bones and other objects that are no meshes count as joints. OUT.json:
 {"fps": N, "joints": {name: [[x, y, z] per frame]}}, world positions in the file's own unit and
@@ -56,14 +56,31 @@ def joints():
     return found
 
 
+def play(animation):
+    """Of several animations, which the importer lays into NLA tracks, plays one."""
+    actions = []
+    for thing in bpy.context.scene.objects:
+        data = thing.animation_data
+        for track in data.nla_tracks if data else []:
+            track.mute = True
+            if track.name == animation:
+                data.action = track.strips[0].action
+                actions.append(data.action)
+    if not actions:
+        raise SystemExit(f"no animation {animation!r}")
+    return actions
+
+
 def main():
     parser = argparse.ArgumentParser(prog="blender_joints.py")
     parser.add_argument("file", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--fps", type=float, required=True)
+    parser.add_argument("--animation", help="of a glTF file with several")
     options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
     import_file(options.file, options.fps)
-    ranges = [action.frame_range for action in bpy.data.actions]
+    actions = play(options.animation) if options.animation else bpy.data.actions
+    ranges = [action.frame_range for action in actions]
     first = round(min((r[0] for r in ranges), default=0))
     last = round(max((r[1] for r in ranges), default=0))
     curves = {}

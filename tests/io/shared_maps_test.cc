@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/bvh.h"
+#include "io/clip_file.h"
 #include "io/recognise.h"
 #include "model/rig_points.h"
 #include "tests/test_data.h"
@@ -72,6 +73,10 @@ const Skeleton kXsens = {"classic", "Hips", "Chest Chest2 Chest3 Chest4", "Chest
     "Left", "Right"};
 const Skeleton kDaz = {"daz", "hip", "abdomen chest", "chest", "neck", "head", "-",
     "lCollar lShldr lForeArm lHand lMid1 lThigh lShin lFoot -", "l", "r"};
+
+const Skeleton kUnreal = {"unreal", "pelvis", "spine_01 spine_02 spine_03", "spine_03", "neck_01",
+    "head", "head_leaf", "clavicle_l upperarm_l lowerarm_l hand_l middle_01_l thigh_l calf_l foot_l "
+    "ball_l", "_l", "_r"};
 
 const std::map<std::string, const Skeleton*> kFiles = {
     {"clips/bandai_respond_normal_001.bvh", &kBandai},
@@ -187,6 +192,65 @@ TEST(SharedMaps, EveryFileIsMappedOrRefusedAsExpected) {
     }
   }
   EXPECT_EQ(seen.size(), kFiles.size() + kRefused.size());
+}
+
+// What is not BVH. Statures are the heights of the meshes, read off the files' own bounds; the
+// Acclaim clip is the BVH's.
+TEST(SharedMaps, CharactersAndAcclaimAreMappedOrRefusedAsExpected) {
+  SKIP_WITHOUT_SHARED_DATA();
+  const std::string data = SharedPath("data/");
+  const struct {
+    const char* file;
+    const Skeleton* skeleton;
+    double stature;
+  } mapped[] = {{"characters/m2m_human-male.glb", &kUnreal, 1.83},
+                {"characters/m2m_mixamo-sample-rig.glb", &kMixamo, 1.81},
+                {"clips/cmu_16_15.amc", &kCmuAsf, 1.64}};
+  for (const auto& expected : mapped) {
+    SCOPED_TRACE(expected.file);
+    std::string path = data + expected.file;
+    if (path.ends_with(".amc")) path = data + "clips/cmu_16_15.asf:" + path;
+    const ClipFile clip = ReadClipFile(path);
+    const RigFacts facts =
+        Recognise(clip.motion, {clip.metres_per_unit, clip.up, clip.map}, expected.file);
+    ExpectSkeleton(*expected.skeleton, clip.motion, facts);
+    EXPECT_NEAR(facts.stature, expected.stature, 0.03);
+  }
+  const auto refusal = [&](const std::string& file) -> std::string {
+    ClipPath path = ParseClipPath(data + file);
+    path.select.any_animation = true;
+    const ClipFile clip = ReadClipFile(path);
+    try {
+      Recognise(clip.motion, {clip.metres_per_unit, clip.up, clip.map}, file);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal("characters/Fox.glb").find("no human figure"), std::string::npos);
+  EXPECT_NE(refusal("characters/rigged_simple.gltf").find("no human figure: it has 2 joints"),
+            std::string::npos);
+}
+
+// Joints without names are told by their places: which is which stands in the mesh (x ahead, y up,
+// z to the right), each limb from the trunk outwards.
+TEST(SharedMaps, NamelessJointsAreToldByShape) {
+  SKIP_WITHOUT_SHARED_DATA();
+  const ClipFile clip = ReadClipFile(SharedPath("data/characters/cesium_man.gltf"));
+  const RigFacts facts = Recognise(clip.motion, {clip.metres_per_unit, clip.up, clip.map}, "c");
+  const PosedRig posed = PoseRig(clip.motion.rig, clip.motion.frames[0]);
+  const auto at = [&](int joint) { return posed.position[static_cast<size_t>(joint)]; };
+  const JointMap& map = facts.map;
+  EXPECT_EQ(map.profile, "topology");
+  EXPECT_NEAR(facts.facing / kDegree, -90, 20) << "the figure looks along +x of a Y-up world";
+  for (const JointMap::Side* side : {&map.left, &map.right}) {
+    EXPECT_GT(at(side->hip).y(), at(side->knee).y());
+    EXPECT_GT(at(side->knee).y(), at(side->ankle).y());
+    EXPECT_GT(at(side->shoulder).y(), at(side->hip).y());
+  }
+  EXPECT_GT(at(map.head).y(), at(map.left.shoulder).y());
+  EXPECT_GT((at(map.left.shoulder) - at(map.right.shoulder)).norm(), 0.1);
+  EXPECT_NEAR(facts.stature, 1.507, 0.05);
 }
 
 // Where the figures face at the first frame that is motion, from the data's own description and

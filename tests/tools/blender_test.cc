@@ -4,13 +4,13 @@
 #include <unistd.h>
 
 #include "io/bvh.h"
+#include "io/clip_file.h"
 #include "io/scene_motion.h"
 #include "model/rig.h"
+#include "tests/tools/run_program.h"
 
 namespace retarget {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kTolerance = 1e-4;  // m
 
@@ -84,6 +84,40 @@ TEST_F(BlenderTest, SeesTheWrittenClipsAsTheyAreMeant) {
   SKIP_WITHOUT_BLENDER();
   CompareBvh(Written("a.bvh"), 0.01);
   CompareBvh(Written("b.bvh"), 0.01);
+}
+
+// Two characters with meshes, driven by the example's clips: what comes back on their rigs, joint
+// by joint as the scene shows the nodes that they play.
+TEST_F(BlenderTest, SeesTheWrittenCharactersAsTheyAreMeant) {
+  SKIP_WITHOUT_BLENDER();
+  SKIP_WITHOUT_SHARED_DATA();
+  const Scratch scratch;
+  const std::string characters = SharedPath("data/characters/");
+  const Outcome run =
+      RunProgram(scratch, kExample + " --frames 0:40 --character-a " + characters +
+                              "m2m_human-male.glb --character-b " + characters +
+                              "m2m_mixamo-sample-rig.glb --out " + (scratch / "out"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* name : {"a.glb", "b.glb"}) {
+    ClipPath path = ParseClipPath(scratch / ("out/" + std::string(name)));
+    path.select.animation = kAnimationName;
+    const RigMotion motion = ReadClipFile(path).motion;
+    const JointCurves curves = BlenderJoints(path.path, 1 / motion.frame_time, kAnimationName);
+    int checked = 0;
+    double worst = 0;
+    for (int f = 0; f < motion.num_frames(); ++f) {
+      const PosedRig posed = PoseRig(motion.rig, motion.frames[static_cast<size_t>(f)]);
+      for (size_t j = 0; j < posed.position.size(); ++j) {
+        const auto curve = curves.find(motion.rig.joints[j].name);
+        if (curve == curves.end()) continue;
+        ASSERT_GE(curve->second.size(), motion.frames.size());
+        worst = std::max(worst, (posed.position[j] - curve->second[static_cast<size_t>(f)]).norm());
+        ++checked;
+      }
+    }
+    EXPECT_LT(worst, kTolerance) << name;
+    EXPECT_GE(checked, 30 * 60) << name;
+  }
 }
 
 TEST_F(BlenderTest, ReadsARealClipAsWeDo) {

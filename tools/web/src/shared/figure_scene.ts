@@ -8,6 +8,7 @@ import {
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { nodeNames, numNodes, numSegments } from "./body";
 import type { Rgb } from "./colours";
+import { shadowMaterial } from "./surroundings";
 
 export type FigureName = "a" | "b";
 export const figureNames: FigureName[] = ["a", "b"];
@@ -15,29 +16,12 @@ export const figureNames: FigureName[] = ["a", "b"];
 // The file's mesh is one capsule per segment in node order, then the nose, each of as many vertices.
 const kCapsules = numSegments + 1;
 const kHeadSegment = nodeNames.indexOf("head_top") - 1;
-const kLight = new Vector3(0.45, 1, 0.6); // towards the light
 
-// The mesh flattened onto the floor along the light: a shadow without a second pass.
 function shadowOf(mesh: SkinnedMesh, material: MeshBasicMaterial): SkinnedMesh {
   const shadow = new SkinnedMesh(mesh.geometry, material);
   shadow.bind(mesh.skeleton, mesh.bindMatrix);
   shadow.frustumCulled = false;
   return shadow;
-}
-
-function shadowMaterial(): MeshBasicMaterial {
-  const material = new MeshBasicMaterial();
-  const [sx, sz] = [kLight.x / kLight.y, kLight.z / kLight.y].map((x) => x.toFixed(4));
-  material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader.replace("#include <project_vertex>", `
-      #include <project_vertex>
-      vec4 onFloor = modelMatrix * vec4(transformed, 1.0);
-      onFloor.xz -= vec2(${sx}, ${sz}) * max(onFloor.y, 0.0);
-      onFloor.y = 0.003;
-      mvPosition = viewMatrix * onFloor;
-      gl_Position = projectionMatrix * mvPosition;`);
-  };
-  return material;
 }
 
 interface Figure {
@@ -49,7 +33,6 @@ interface Figure {
 
 export class FigureScene {
   readonly scene = new Scene();
-  readonly light = kLight;
   readonly duration: number; // s
   private readonly nodes = new Map<string, Object3D>();
   private readonly figures: Record<FigureName, Figure>;

@@ -1,12 +1,10 @@
 // Several stages side by side, seen by one camera: one canvas behind all, one part of it per stage.
 // Draws only when something changed and somebody can see it.
 
-import {
-  CircleGeometry, Color, DirectionalLight, Fog, GridHelper, HemisphereLight, Mesh,
-  MeshBasicMaterial, PerspectiveCamera, Vector3, WebGLRenderer,
-} from "three";
+import { PerspectiveCamera, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { FigureScene } from "./figure_scene";
+import { pixelRatio, surround } from "./surroundings";
 import { onThemeChange, themeColour } from "./theme";
 
 interface Stage {
@@ -15,35 +13,10 @@ interface Stage {
   dress: () => void; // takes the colours of the theme
 }
 
-// Pixels drawn per CSS pixel. A graphics card smooths edges by drawing more of them, which serves
-// as well as multisampling; where the processor draws, each pixel counts.
-function pixelRatio(context: WebGL2RenderingContext): number {
-  const info = context.getExtension("WEBGL_debug_renderer_info");
-  const name = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
-  return /swiftshader|llvmpipe|softpipe|software/i.test(name) ? 1 : 2;
-}
-
-// Lights, floor and grid.
 function dress(figures: FigureScene): () => void {
-  const { scene, light } = figures;
-  const sun = new DirectionalLight(0xffffff, 1.9);
-  sun.position.copy(light);
-  const sky = new HemisphereLight(0xffffff, 0x8a8f98, 1.7);
-  const floor = new Mesh(new CircleGeometry(30, 48), new MeshBasicMaterial());
-  floor.rotation.x = -Math.PI / 2;
-  floor.position.y = -0.002;
-  const grid = new GridHelper(40, 80);
-  scene.add(sun, sky, floor, grid);
-  scene.fog = new Fog(0xffffff, 5, 13);
+  const surroundings = surround(figures.scene);
   return () => {
-    const ground = new Color(themeColour("--stage"));
-    scene.background = ground;
-    (scene.fog as Fog).color = ground;
-    floor.material.color = ground;
-    const lines = grid.material as unknown as MeshBasicMaterial;
-    lines.vertexColors = false;
-    lines.color.set(themeColour("--stage-grid"));
-    lines.needsUpdate = true;
+    surroundings.dress();
     figures.shadowColour(themeColour("--stage-shadow"));
   };
 }
