@@ -79,12 +79,18 @@ export class FigureMesh {
     this.body = body;
   }
 
-  ghost(on: boolean): void {
-    this.material.transparent = on;
-    this.material.opacity = on ? 0.22 : 1;
-    this.material.depthWrite = !on;
-    this.material.needsUpdate = true;
-    this.shadow.visible = !on;
+  // A ghost is seen through, and what is behind it too.
+  appear(opacity: number, ghost: boolean): void {
+    const { material } = this;
+    material.opacity = ghost ? 0.22 : opacity;
+    material.depthWrite = !ghost;
+    if (material.transparent !== material.opacity < 1) {
+      material.transparent = material.opacity < 1;
+      material.needsUpdate = true;
+    }
+  }
+  castShadow(on: boolean): void {
+    this.shadow.visible = on;
   }
 
   pose(state: FigureState): void {

@@ -5,6 +5,7 @@ import "./studio.css";
 import { byId, element } from "../shared/dom";
 import { Actions } from "./actions";
 import { fillStatus, fillToolbar, fillTopBar } from "./bars";
+import { CameraSection } from "./camera_section";
 import { Gizmo } from "./gizmo";
 import { exposeHook } from "./hook";
 import { Keys } from "./keys";
@@ -39,7 +40,8 @@ async function start(): Promise<void> {
   viewport.onDraw((context, view) => overlay.draw(context, view), () => photoLayer.place());
 
   const library = new LibraryPanel(store, actions, session);
-  const photo = new PhotoPanel(store, actions, session);
+  const camera = new CameraSection(store, actions);
+  const photo = new PhotoPanel(store, actions, session, camera);
   const tryIt = new TryPanel(store);
   const startFrom = () => openStartDialog(store, session, library.known);
   const figures = new FiguresPanel(store, actions, sender, startFrom);
@@ -53,16 +55,16 @@ async function start(): Promise<void> {
     if (store.ui.tool !== "pose" || store.ui.holdFrom) actions.tool("pose");
     else store.select(null);
   };
-  const keys = new Keys(store, actions, session, escape, () => photo.setLock(!store.ui.locked), startFrom);
+  const keys = new Keys(store, actions, session, escape, () => camera.setLock(!store.ui.locked), startFrom);
   fillTopBar(store, actions, session, () => keys.help());
   fillToolbar(store, actions);
   fillStatus(store);
   session.onLoad = () => {
     store.select(null);
-    photo.loaded();
+    camera.loaded();
   };
   session.onLoad();
-  photo.keepView();
+  camera.keepView(session.resumed);
   await Promise.all([library.load(), tryIt.load()]);
   exposeHook(store, sender, viewport);
 }

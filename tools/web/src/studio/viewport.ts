@@ -1,7 +1,7 @@
 // The stage: one canvas behind the main view and three side views, and one over them for handles.
 // Draws only when something changed.
 
-import { Scene, Vector3, WebGLRenderer, type Fog } from "three";
+import { Scene, Vector3, WebGLRenderer, type Fog, type LineBasicMaterial } from "three";
 import { gliTable, heat } from "../shared/gli";
 import { figureColour, heatStops, mix, ramp, rgbOf, type Rgb } from "../shared/colours";
 import { element } from "../shared/dom";
@@ -54,6 +54,7 @@ export class Viewport {
     container.append(views, this.overlay);
     new ResizeObserver(redraw).observe(this.main.element);
     this.surroundings.floor.visible = false; // the stage has its colour
+    (this.surroundings.grid.material as LineBasicMaterial).transparent = true;
     this.dress();
     onThemeChange(() => {
       this.dress();
@@ -90,7 +91,6 @@ export class Viewport {
       mesh.resize(body[figure]);
       mesh.pose(state.figures[figure]);
       mesh.group.visible = ui.shown[figure] !== "hidden";
-      mesh.ghost(ui.shown[figure] === "ghost");
     }
     this.paint();
     const column = this.container.querySelector<HTMLElement>(".column")!;
@@ -175,10 +175,18 @@ export class Viewport {
     view.fit(width, height);
     const main = view === this.main;
     const picture = main && !this.photo.hidden;
-    this.surroundings.grid.visible = view.name === "main" || view.name === "top";
+    const { grid } = this.surroundings;
+    grid.visible = view.name === "main" || view.name === "top";
+    const lines = grid.material as LineBasicMaterial;
+    lines.opacity = picture ? 0.3 : 1;
+    for (const figure of figureNames) {
+      const ghost = this.store.ui.shown[figure] === "ghost";
+      this.meshes[figure]?.appear(picture ? this.store.ui.solid : 1, ghost);
+      this.meshes[figure]?.castShadow(!picture && !ghost);
+    }
     const distance = view.camera.position.distanceTo(view.controls.target);
     const fog = scene.fog as Fog;
-    [fog.near, fog.far] = main && !picture ? [distance + 1.5, distance + 9] : [50, 60];
+    [fog.near, fog.far] = main ? [distance + 1.5, distance + 9] : [50, 60];
     const shown = this.onlyInMain.map((thing) => thing.visible);
     if (!main) for (const thing of this.onlyInMain) thing.visible = false;
     renderer.setViewport(x, y, width, height);
