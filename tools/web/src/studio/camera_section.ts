@@ -1,4 +1,4 @@
-// The main camera: field of view, named sides, saved cameras, the lock that keeps it with the photo.
+// The main camera: field of view, named sides, saved cameras, the lock.
 
 import { MathUtils, type PerspectiveCamera, type Vector3 } from "three";
 import { element } from "../shared/dom";
@@ -20,17 +20,35 @@ export class CameraSection {
   private readonly cameras = element("ul", { class: "items" });
   private saved = JSON.parse(localStorage.getItem(kSaved) ?? "[]") as SavedCamera[];
 
-  constructor(private readonly store: Store, private readonly actions: Actions) {
+  constructor(
+    private readonly store: Store,
+    private readonly actions: Actions,
+  ) {
     const setFov = (v: number) => this.setFov(v);
-    this.fov = slider("Field of view", "vertical field of view of the main camera (degrees)",
-      10, 100, 1, (v) => `${v}°`, setFov, setFov);
+    this.fov = slider(
+      "Field of view",
+      "vertical field of view of the main camera (degrees)",
+      10,
+      100,
+      1,
+      (v) => `${v}°`,
+      setFov,
+      setFov,
+    );
     const looks = (Object.keys(directions) as Direction[]).map((direction) =>
-      button(direction, `look from: ${direction}`, () => actions.look(direction)));
-    this.element = section("Camera", this.fov.element,
+      button(direction, `look from: ${direction}`, () => actions.look(direction)),
+    );
+    this.element = section(
+      "Camera",
+      this.fov.element,
       element("div", { class: "row looks" }, ...looks),
-      row(button("Save camera", "keep this view in the list", () => this.save()),
-        button("To template", "store this camera in the template", () => this.toTemplate())),
-      this.cameras, note("Side views: V. Drag to pan them, wheel to zoom."));
+      row(
+        button("Save camera", "keep this view in the list", () => this.save()),
+        button("To template", "store this camera in the template", () => this.toTemplate()),
+      ),
+      this.cameras,
+      note("Side views: V. Drag to pan them, wheel to zoom."),
+    );
   }
 
   private get view() {
@@ -43,7 +61,11 @@ export class CameraSection {
   private now(): Camera {
     const round = (v: Vector3) => v.toArray().map((x) => Math.round(1e4 * x) / 1e4) as Vec;
     const { controls } = this.view;
-    return { eye: round(this.camera.position), target: round(controls.target), fov_deg: this.camera.fov };
+    return {
+      eye: round(this.camera.position),
+      target: round(controls.target),
+      fov_deg: this.camera.fov,
+    };
   }
 
   private apply({ eye, target, fov_deg }: Camera): void {
@@ -106,8 +128,11 @@ export class CameraSection {
     });
     const kept = sessionStorage.getItem(kView);
     if (!kept || !resumed) return;
-    const { camera, locked, panel } =
-      JSON.parse(kept) as { camera: Camera; locked: boolean; panel: PanelName };
+    const { camera, locked, panel } = JSON.parse(kept) as {
+      camera: Camera;
+      locked: boolean;
+      panel: PanelName;
+    };
     this.apply(camera);
     this.view.controls.enabled = !locked;
     this.store.set({ locked, panel });
@@ -117,7 +142,12 @@ export class CameraSection {
     const { camera } = this.store.state;
     this.fov.set(Math.round(this.camera.fov));
     const own: SavedCamera[] = camera ? [{ name: "the template's", ...camera }] : [];
-    list(this.cameras, [...own, ...this.saved], (c) => c, (saved, k) => this.item(saved, k - own.length));
+    list(
+      this.cameras,
+      [...own, ...this.saved],
+      (c) => c,
+      (saved, k) => this.item(saved, k - own.length),
+    );
   }
 
   // `index` in the list of saved ones; negative: the template's.
@@ -125,11 +155,22 @@ export class CameraSection {
     const look = () => {
       if (!this.store.ui.locked) this.apply(camera);
     };
-    const drop = index < 0
-      ? button("✕", "no camera in the template", () => void this.actions.do({ op: "set_camera", camera: null }))
-      : button("✕", `forget ${camera.name}`, () => this.keep(this.saved.filter((_, k) => k !== index)));
-    return element("li", { class: "line" },
+    const drop =
+      index < 0
+        ? button(
+            "✕",
+            "no camera in the template",
+            () => void this.actions.do({ op: "set_camera", camera: null }),
+          )
+        : button("✕", `forget ${camera.name}`, () =>
+            this.keep(this.saved.filter((_, k) => k !== index)),
+          );
+    return element(
+      "li",
+      { class: "line" },
       button(camera.name, "look through this camera", look, "plain"),
-      element("small", {}, `${Math.round(camera.fov_deg)}°`), drop);
+      element("small", {}, `${Math.round(camera.fov_deg)}°`),
+      drop,
+    );
   }
 }

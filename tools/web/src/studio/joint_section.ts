@@ -21,23 +21,45 @@ export class JointSection {
   private readonly content: HTMLElement;
   private readonly none = note("Click a joint to select it. Drag it and the whole figure follows.");
 
-  constructor(private readonly store: Store, actions: Actions, sender: Sender) {
+  constructor(
+    private readonly store: Store,
+    actions: Actions,
+    sender: Sender,
+  ) {
     this.joint = select("the joint that is turned", [], (v) => store.set({ joint: Number(v) }));
     this.place = new VectorFields(sender, {
-      label: "Position", unit: "m", step: 0.01, digits: 3, scrub: false,
+      label: "Position",
+      unit: "m",
+      step: 0.01,
+      digits: 3,
+      scrub: false,
       title: "position of the joint in the world (m); the solver brings it there",
       op: (axis, value) => this.dragOp(axis, value),
     });
     this.turn = new VectorFields(sender, {
-      label: "Rotation", unit: "°", step: 1, digits: 1, scrub: true,
+      label: "Rotation",
+      unit: "°",
+      step: 1,
+      digits: 1,
+      scrub: true,
       title: "rotation of the joint in its parent, component of the rotation vector (degrees)",
       op: (axis, value) => this.turnOp(axis, value),
     });
-    this.pin = button("Pin", "pin the joint where it is, or free it (P)",
-      () => actions.togglePin(store.ui.selected));
-    const reset = button("Reset", "the joint as in the T-pose (Backspace)", () => actions.resetJoint());
-    this.content = element("div", { class: "stack" }, row(this.title, this.joint.element),
-      this.place.element, this.turn.element, this.limits, row(this.pin, reset));
+    this.pin = button("Pin", "pin the joint where it is, or free it (P)", () =>
+      actions.togglePin(store.ui.selected),
+    );
+    const reset = button("Reset", "the joint as in the T-pose (Backspace)", () =>
+      actions.resetJoint(),
+    );
+    this.content = element(
+      "div",
+      { class: "stack" },
+      row(this.title, this.joint.element),
+      this.place.element,
+      this.turn.element,
+      this.limits,
+      row(this.pin, reset),
+    );
     this.element = section("Joint", this.none, this.content);
   }
 
@@ -69,18 +91,31 @@ export class JointSection {
     this.title.textContent = nodeOf(figure, this.store.nodeName(selected));
     this.title.className = `figure-${figure}`;
     const { links } = body[figure];
-    this.joint.set(String(ui.joint), links.map(({ name }, k) => [String(k), `turns: ${words(name)}`]));
+    this.joint.set(
+      String(ui.joint),
+      links.map(({ name }, k) => [String(k), `turns: ${words(name)}`]),
+    );
     this.place.set(this.store.place(selected));
     const { root, rotation_vectors } = state.figures[figure];
     const vector = ui.joint === 0 ? root.rotation_vector : rotation_vectors[ui.joint];
     const readings = ui.joint === 0 ? [] : readLimits(links[ui.joint].limits, vector);
     this.turn.set(vector);
     this.turn.warn(readings.some((r) => r.beyond));
-    list(this.limits, readings, (r) => [r.name, Math.round(r.value), r.beyond], (r) => {
-      const range = `limit ${r.min === 0 ? "" : `${degrees(r.min)} to `}${degrees(r.max)}`;
-      return element("li", { class: r.beyond ? "beyond" : "" }, element("span", {}, r.name),
-        element("b", {}, degrees(r.value)), element("small", {}, range));
-    });
+    list(
+      this.limits,
+      readings,
+      (r) => [r.name, Math.round(r.value), r.beyond],
+      (r) => {
+        const range = `limit ${r.min === 0 ? "" : `${degrees(r.min)} to `}${degrees(r.max)}`;
+        return element(
+          "li",
+          { class: r.beyond ? "beyond" : "" },
+          element("span", {}, r.name),
+          element("b", {}, degrees(r.value)),
+          element("small", {}, range),
+        );
+      },
+    );
     this.pin.textContent = this.store.pinOf(selected) >= 0 ? "Unpin" : "Pin";
   }
 }

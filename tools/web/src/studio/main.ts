@@ -37,7 +37,10 @@ async function start(): Promise<void> {
   const pointer = new Pointer(viewport, store, sender, gizmo, actions);
   const overlay = new Overlay(store);
   const photoLayer = new PhotoLayer(actions, store);
-  viewport.onDraw((context, view) => overlay.draw(context, view), () => photoLayer.place());
+  viewport.onDraw(
+    (context, view) => overlay.draw(context, view),
+    () => photoLayer.place(),
+  );
 
   const library = new LibraryPanel(store, actions, session);
   const camera = new CameraSection(store, actions);
@@ -46,16 +49,26 @@ async function start(): Promise<void> {
   const startFrom = () => openStartDialog(store, session, library.known);
   const figures = new FiguresPanel(store, actions, sender, startFrom);
   fillSide(store, {
-    figures: figures.element, holds: new HoldsPanel(store, actions).element,
-    tangles: new TanglesPanel(store, actions).element, photo: photo.element,
-    library: library.element, try: tryIt.element,
+    figures: figures.element,
+    holds: new HoldsPanel(store, actions).element,
+    tangles: new TanglesPanel(store, actions).element,
+    photo: photo.element,
+    library: library.element,
+    try: tryIt.element,
   });
   const escape = () => {
     if (pointer.cancel()) return;
     if (store.ui.tool !== "pose" || store.ui.holdFrom) actions.tool("pose");
     else store.select(null);
   };
-  const keys = new Keys(store, actions, session, escape, () => camera.setLock(!store.ui.locked), startFrom);
+  const keys = new Keys(
+    store,
+    actions,
+    session,
+    escape,
+    () => camera.setLock(!store.ui.locked),
+    startFrom,
+  );
   fillTopBar(store, actions, session, () => keys.help());
   fillToolbar(store, actions);
   fillStatus(store);
@@ -70,7 +83,9 @@ async function start(): Promise<void> {
 }
 
 start().catch((error: Error) => {
-  const said = error.message === "no WebGL"
-    ? "The studio draws with WebGL, which this browser does not offer." : error.message;
+  const said =
+    error.message === "no WebGL"
+      ? "The studio draws with WebGL, which this browser does not offer."
+      : error.message;
   byId("viewport").append(element("p", { class: "failure", role: "alert" }, said));
 });

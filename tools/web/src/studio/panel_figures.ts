@@ -32,79 +32,142 @@ export class FiguresPanel {
   private readonly options = {} as Record<OptionName, ReturnType<typeof check>>;
 
   constructor(
-    private readonly store: Store, private readonly actions: Actions, sender: Sender,
+    private readonly store: Store,
+    private readonly actions: Actions,
+    sender: Sender,
     startFrom: () => void,
   ) {
     const figure = () => store.ui.figure;
     this.joint = new JointSection(store, actions, sender);
     this.tabs = { a: this.tab("a"), b: this.tab("b") };
     this.stature = number({
-      label: "Stature", title: "stature of the figure (m)", unit: "m", step: 0.01, digits: 2,
-      min: 0.5, max: 3,
+      label: "Stature",
+      title: "stature of the figure (m)",
+      unit: "m",
+      step: 0.01,
+      digits: 2,
+      min: 0.5,
+      max: 3,
       commit: (v) => void actions.do({ op: "set_stature", figure: figure(), stature: v }),
     });
     this.rootPlace = new VectorFields(sender, {
-      label: "Root", unit: "m", step: 0.01, digits: 3, scrub: true,
+      label: "Root",
+      unit: "m",
+      step: 0.01,
+      digits: 3,
+      scrub: true,
       title: "position of the figure's root in the world (m)",
       op: (axis, v) => this.rootOp(axis, v, "position"),
     });
     this.rootTurn = new VectorFields(sender, {
-      label: "Turn", unit: "°", step: 1, digits: 1, scrub: true,
+      label: "Turn",
+      unit: "°",
+      step: 1,
+      digits: 1,
+      scrub: true,
       title: "rotation of the figure's root, component of the rotation vector (degrees)",
       op: (axis, v) => this.rootOp(axis, v, "rotation_vector"),
     });
     const leaders: [string, string][] = [
-      ["world", "follows its own clip"], ["partner", "is carried by its partner"]];
-    this.leader = select("whose motion leads the figure in a solve", leaders,
-      (leader) => void actions.do({ op: "set_root_leader", figure: figure(), leader }));
-    const ways: [string, string][] = [["shown", "shown"], ["ghost", "ghost"], ["hidden", "hidden"]];
-    this.shown = select("how the figure is shown (I isolates, G ghosts the other)", ways,
-      (v) => store.set({ shown: { ...store.ui.shown, [figure()]: v as Shown } }));
+      ["world", "follows its own clip"],
+      ["partner", "is carried by its partner"],
+    ];
+    this.leader = select(
+      "whose motion leads the figure in a solve",
+      leaders,
+      (leader) => void actions.do({ op: "set_root_leader", figure: figure(), leader }),
+    );
+    const ways: [string, string][] = [
+      ["shown", "shown"],
+      ["ghost", "ghost"],
+      ["hidden", "hidden"],
+    ];
+    this.shown = select("how the figure is shown (I isolates, G ghosts the other)", ways, (v) =>
+      store.set({ shown: { ...store.ui.shown, [figure()]: v as Shown } }),
+    );
     for (const name of optionNames) {
       this.options[name] = check(...kOptions[name], (on) => actions.option(name, on));
     }
-    this.element.append(this.joint.element, this.figureSection(), this.bothSection(startFrom),
-      this.solverSection());
+    this.element.append(
+      this.joint.element,
+      this.figureSection(),
+      this.bothSection(startFrom),
+      this.solverSection(),
+    );
     store.onChange(() => this.refresh());
   }
 
   private tab(figure: FigureName): HTMLButtonElement {
-    return button(`Figure ${figure}`, `figure ${figure}`, () => {
-      const { selected } = this.store.ui;
-      if (selected && selected.figure !== figure) this.store.select({ ...selected, figure });
-      else this.store.set({ figure });
-    }, `figure-${figure}`);
+    return button(
+      `Figure ${figure}`,
+      `figure ${figure}`,
+      () => {
+        const { selected } = this.store.ui;
+        if (selected && selected.figure !== figure) this.store.select({ ...selected, figure });
+        else this.store.set({ figure });
+      },
+      `figure-${figure}`,
+    );
   }
 
   private figureSection(): HTMLElement {
     const { actions } = this;
     const figure = () => this.store.ui.figure;
-    return section("Figure",
-      element("div", { class: "segmented", role: "group", "aria-label": "figure" },
-        this.tabs.a, this.tabs.b),
-      row(this.stature.element, this.shown.element), this.rootPlace.element, this.rootTurn.element,
+    return section(
+      "Figure",
+      element(
+        "div",
+        { class: "segmented", role: "group", "aria-label": "figure" },
+        this.tabs.a,
+        this.tabs.b,
+      ),
+      row(this.stature.element, this.shown.element),
+      this.rootPlace.element,
+      this.rootTurn.element,
       element("label", { class: "field inline" }, "Motion", this.leader.element),
       row(
-        button("Mirror", "left and right of this figure change places (M)", () => actions.mirror(figure())),
-        button("L → R", "copy the left side's joints onto the right", () => actions.copySide(figure(), "left")),
-        button("R → L", "copy the right side's joints onto the left", () => actions.copySide(figure(), "right")),
-        button("Reset", "the whole figure in its T-pose, upright on the floor",
-          () => actions.resetFigure(figure()))));
+        button("Mirror", "left and right of this figure change places (M)", () =>
+          actions.mirror(figure()),
+        ),
+        button("L → R", "copy the left side's joints onto the right", () =>
+          actions.copySide(figure(), "left"),
+        ),
+        button("R → L", "copy the right side's joints onto the left", () =>
+          actions.copySide(figure(), "right"),
+        ),
+        button("Reset", "the whole figure in its T-pose, upright on the floor", () =>
+          actions.resetFigure(figure()),
+        ),
+      ),
+    );
   }
 
   private bothSection(startFrom: () => void): HTMLElement {
-    return section("Both", row(
-      button("Start from…", "rest, a template, or a frame of the clips (N)", startFrom),
-      button("Swap a, b", "a becomes b and b becomes a", () => this.actions.swap()),
-      button("Mirror scene", "the whole scene through x = 0; every GLI changes its sign (Shift+M)",
-        () => this.actions.mirror("both"))));
+    return section(
+      "Both",
+      row(
+        button("Start from…", "rest, a template, or a frame of the clips (N)", startFrom),
+        button("Swap a, b", "a becomes b and b becomes a", () => this.actions.swap()),
+        button(
+          "Mirror scene",
+          "the whole scene through x = 0; every GLI changes its sign (Shift+M)",
+          () => this.actions.mirror("both"),
+        ),
+      ),
+    );
   }
 
   private solverSection(): HTMLElement {
     const labels = optionNames.map((name) => this.options[name].label);
-    return section("Solver", element("div", { class: "options" }, ...labels), row(
-      button("Settle", "close holds, restore limits and distances without a drag (S)",
-        () => this.actions.settle())));
+    return section(
+      "Solver",
+      element("div", { class: "options" }, ...labels),
+      row(
+        button("Settle", "close holds, restore limits and distances without a drag (S)", () =>
+          this.actions.settle(),
+        ),
+      ),
+    );
   }
 
   private rootOp(axis: number, value: number, which: "position" | "rotation_vector"): Op {

@@ -11,7 +11,9 @@ import { button, check, number, row, section, slider, type NumberField } from ".
 export class PhotoPanel {
   readonly element = element("div", { class: "panel" });
   private readonly file = element("input", {
-    type: "file", accept: "image/png,image/jpeg,image/webp", hidden: "",
+    type: "file",
+    accept: "image/png,image/jpeg,image/webp",
+    hidden: "",
   });
   private readonly controls: HTMLElement;
   private readonly opacity: ReturnType<typeof slider>;
@@ -21,32 +23,80 @@ export class PhotoPanel {
   private readonly lock: ReturnType<typeof check>;
 
   constructor(
-    private readonly store: Store, private readonly actions: Actions,
-    private readonly session: Session, private readonly camera: CameraSection,
+    private readonly store: Store,
+    private readonly actions: Actions,
+    private readonly session: Session,
+    private readonly camera: CameraSection,
   ) {
     const preview = (part: Partial<Photo>) => this.change(part, false);
     const commit = (part: Partial<Photo>) => this.change(part, true);
-    this.opacity = slider("Opacity", "opacity of the photo (%)", 0, 1, 0.01,
-      (v) => `${Math.round(100 * v)} %`, (opacity) => preview({ opacity }), (opacity) => commit({ opacity }));
-    this.scale = slider("Scale", "height of the photo against the view's (1: as high as the view)",
-      0.2, 4, 0.01, (v) => v.toFixed(2), (scale) => preview({ scale }), (scale) => commit({ scale }));
+    this.opacity = slider(
+      "Opacity",
+      "opacity of the photo (%)",
+      0,
+      1,
+      0.01,
+      (v) => `${Math.round(100 * v)} %`,
+      (opacity) => preview({ opacity }),
+      (opacity) => commit({ opacity }),
+    );
+    this.scale = slider(
+      "Scale",
+      "height of the photo against the view's (1: as high as the view)",
+      0.2,
+      4,
+      0.01,
+      (v) => v.toFixed(2),
+      (scale) => preview({ scale }),
+      (scale) => commit({ scale }),
+    );
     const setSolid = (solid: number) => store.set({ solid });
-    this.solid = slider("Figures", "opacity of the figures over the photo (%)", 0.1, 1, 0.01,
-      (v) => `${Math.round(100 * v)} %`, setSolid, setSolid);
+    this.solid = slider(
+      "Figures",
+      "opacity of the figures over the photo (%)",
+      0.1,
+      1,
+      0.01,
+      (v) => `${Math.round(100 * v)} %`,
+      setSolid,
+      setSolid,
+    );
     this.offset = [0, 1].map((axis) => this.offsetField(axis));
-    this.lock = check("Lock photo and camera (L)", "neither moves; the camera is stored in the template",
-      (on) => camera.setLock(on));
-    this.controls = element("div", { class: "stack" }, this.opacity.element,
-      this.solid.element, this.scale.element,
-      element("div", { class: "triple two" }, element("span", {}, "Offset"),
-        ...this.offset.map((field) => field.element)),
+    this.lock = check(
+      "Lock photo and camera (L)",
+      "neither moves; the camera is stored in the template",
+      (on) => camera.setLock(on),
+    );
+    this.controls = element(
+      "div",
+      { class: "stack" },
+      this.opacity.element,
+      this.solid.element,
+      this.scale.element,
+      element(
+        "div",
+        { class: "triple two" },
+        element("span", {}, "Offset"),
+        ...this.offset.map((field) => field.element),
+      ),
       this.lock.label,
-      row(button("Move photo", "drag the photo in the main view", () => actions.tool("photo-move")),
-        button("Pin to photo", "drag a joint to its point in the photo; its depth is left to the solver (O)",
-          () => actions.tool("photo-pin"), "primary"),
-        button("Remove", "no photo behind", () => void session.removePhoto())));
-    const drop = button("Drop a picture here, or choose a file…", "PNG, JPEG or WebP, up to 16 MB",
-      () => this.file.click(), "drop");
+      row(
+        button("Move photo", "drag the photo in the main view", () => actions.tool("photo-move")),
+        button(
+          "Pin to photo",
+          "drag a joint to its point in the photo; its depth is left to the solver (O)",
+          () => actions.tool("photo-pin"),
+          "primary",
+        ),
+        button("Remove", "no photo behind", () => void session.removePhoto()),
+      ),
+    );
+    const drop = button(
+      "Drop a picture here, or choose a file…",
+      "PNG, JPEG or WebP, up to 16 MB",
+      () => this.file.click(),
+      "drop",
+    );
     this.element.append(this.file, section("Photo", drop, this.controls), camera.element);
     this.takeFiles();
     store.onChange(() => this.refresh());
@@ -55,7 +105,10 @@ export class PhotoPanel {
   private offsetField(axis: number): NumberField {
     const [label, way] = axis === 0 ? ["X", "right"] : ["Y", "up"];
     return number({
-      label, title: `offset of the photo, ${way} (heights of the view)`, step: 0.01, digits: 3,
+      label,
+      title: `offset of the photo, ${way} (heights of the view)`,
+      step: 0.01,
+      digits: 3,
       commit: (value) => {
         const offset = [...this.store.state.photo!.offset] as [number, number];
         offset[axis] = value;

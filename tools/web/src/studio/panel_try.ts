@@ -13,25 +13,39 @@ interface Clip {
   error?: string; // why it cannot be used
 }
 const kStarts: [string, string][] = [
-  ["", "simulated, as without the studio"], ["template", "from the template (quicker)"],
-  ["best", "the better of both"]];
+  ["", "simulated, as without the studio"],
+  ["template", "from the template (quicker)"],
+  ["best", "the better of both"],
+];
 
 export class TryPanel {
   readonly element = element("div", { class: "panel" });
-  private readonly solve = button("Solve", "run retarget on the two clips with this template",
-    () => void this.begin(), "primary");
-  private readonly stop = button("Stop", "stop the run; the best result so far is kept where there is one",
-    () => void this.end());
+  private readonly solve = button(
+    "Solve",
+    "run retarget on the two clips with this template",
+    () => void this.begin(),
+    "primary",
+  );
+  private readonly stop = button(
+    "Stop",
+    "stop the run; the best result so far is kept where there is one",
+    () => void this.end(),
+  );
   private readonly clips = {
-    a: select("the clip of figure a", [], () => {}), b: select("the clip of figure b", [], () => {}),
+    a: select("the clip of figure a", [], () => {}),
+    b: select("the clip of figure b", [], () => {}),
   };
   private readonly frames = element("input", {
-    type: "text", placeholder: "all", title: "frames of the clips, such as 0:240; empty: all",
+    type: "text",
+    placeholder: "all",
+    title: "frames of the clips, such as 0:240; empty: all",
     "aria-label": "frames, such as 0:240",
   });
   private readonly begins = select("where the solve starts (solve.start)", kStarts, () => {});
-  private readonly noClips = note("No clips found. Start the studio with --clip-a A --clip-b B, " +
-    "or put .bvh, .glb or .vrm files into the library's folder.");
+  private readonly noClips = note(
+    "No clips found. Start the studio with --clip-a A --clip-b B, " +
+      "or put .bvh, .glb or .vrm files into the library's folder.",
+  );
   private readonly run = new RunView();
   private readonly result = section("Run", this.run.element);
   private job: string | null = null;
@@ -42,9 +56,17 @@ export class TryPanel {
     this.result.hidden = true;
     this.stop.disabled = true;
     this.element.append(
-      section("Clips", this.noClips, field("a", this.clips.a.element), field("b", this.clips.b.element),
-        field("Frames", this.frames), field("Start", this.begins.element), row(this.solve, this.stop)),
-      this.result);
+      section(
+        "Clips",
+        this.noClips,
+        field("a", this.clips.a.element),
+        field("b", this.clips.b.element),
+        field("Frames", this.frames),
+        field("Start", this.begins.element),
+        row(this.solve, this.stop),
+      ),
+      this.result,
+    );
   }
 
   private trying(act: () => Promise<void>): Promise<void> {
@@ -62,8 +84,10 @@ export class TryPanel {
       error ? `${name}: ${error}` : frames ? `${name} (${frames} frames)` : name;
     const options = files.map((clip) => [clip.id, said(clip)] as [string, string]);
     for (const figure of ["a", "b"] as const) {
-      const named = files.find(({ id }) => id === `start/${figure}`) ??
-        files.find(({ name }) => new RegExp(`(^|[/ ])${figure}\\.`).test(name)) ?? files[0];
+      const named =
+        files.find(({ id }) => id === `start/${figure}`) ??
+        files.find(({ name }) => new RegExp(`(^|[/ ])${figure}\\.`).test(name)) ??
+        files[0];
       this.clips[figure].set(this.clips[figure].element.value || named?.id || "", options);
     }
     this.noClips.hidden = files.length > 0;
@@ -76,8 +100,10 @@ export class TryPanel {
     return this.trying(async () => {
       const { job } = await post<{ job: string }>("/api/solve", {
         session: this.store.session,
-        clip_a: this.clips.a.element.value, clip_b: this.clips.b.element.value,
-        ...(frames ? { frames } : {}), ...(start ? { settings: { "solve.start": start } } : {}),
+        clip_a: this.clips.a.element.value,
+        clip_b: this.clips.b.element.value,
+        ...(frames ? { frames } : {}),
+        ...(start ? { settings: { "solve.start": start } } : {}),
       });
       this.busy(job);
       this.result.hidden = false;

@@ -6,6 +6,7 @@ import { onThemeChange, themeColour } from "../shared/theme";
 import { address } from "./api";
 import type { Requirement } from "./protocol";
 import { button, list, row } from "./widgets";
+import { cm } from "./words";
 
 interface Progress {
   stage?: string;
@@ -27,17 +28,27 @@ export class RunView {
   private readonly stage = element("b", {});
   private readonly numbers = element("span", {});
   private readonly curve = element("canvas", {
-    class: "curve", title: "cost of the iterations (logarithmic)", role: "img", "aria-label": "cost",
+    class: "curve",
+    title: "cost of the iterations (logarithmic); the line breaks where a stage begins",
+    role: "img",
+    "aria-label": "cost",
   });
   private readonly log = element("pre", {
-    class: "log", tabindex: "0", "aria-label": "what the run says",
+    class: "log",
+    tabindex: "0",
+    "aria-label": "what the run says",
   });
   private readonly outcome = element("div", { class: "outcome", hidden: "" });
   private costs: number[] = [];
 
   constructor() {
-    this.element = element("div", { class: "stack" },
-      element("div", { class: "progress" }, this.stage, this.numbers, this.curve), this.outcome, this.log);
+    this.element = element(
+      "div",
+      { class: "stack" },
+      element("div", { class: "progress" }, this.stage, this.numbers, this.curve),
+      this.outcome,
+      this.log,
+    );
     new ResizeObserver(() => this.draw()).observe(this.curve);
     onThemeChange(() => this.draw());
   }
@@ -55,7 +66,9 @@ export class RunView {
       over();
     };
     const on = <T>(name: string, act: (data: T) => void) =>
-      events.addEventListener(name, (event) => act(JSON.parse((event as MessageEvent<string>).data) as T));
+      events.addEventListener(name, (event) =>
+        act(JSON.parse((event as MessageEvent<string>).data) as T),
+      );
     on<Progress>("progress", (progress) => this.tell(progress));
     on<{ line: string }>("log", ({ line }) => {
       this.log.append(`${line}\n`);
@@ -70,9 +83,12 @@ export class RunView {
       this.stage.textContent = stopped ? "stopped" : "failed";
       this.outcome.replaceChildren(element("p", { class: "bad" }, error));
     };
-    on<{ error: string; stopped?: boolean }>("failed", ({ error, stopped }) => fail(error, Boolean(stopped)));
+    on<{ error: string; stopped?: boolean }>("failed", ({ error, stopped }) =>
+      fail(error, Boolean(stopped)),
+    );
     events.onerror = () => {
-      if (events.readyState === EventSource.CLOSED) fail("The server does not tell of this run any more.", false);
+      if (events.readyState === EventSource.CLOSED)
+        fail("The server does not tell of this run any more.", false);
     };
   }
 
@@ -99,7 +115,8 @@ export class RunView {
     logs.forEach((value, k) => {
       const x = 4 + ((width - 8) * k) / Math.max(1, logs.length - 1);
       const y = 5 + (height - 10) * (1 - (value - low) / Math.max(1e-9, high - low));
-      if (k === 0) context.moveTo(x, y);
+      if (k === 0 || value > logs[k - 1])
+        context.moveTo(x, y); // a stage with other weights
       else context.lineTo(x, y);
     });
     context.stroke();
@@ -108,26 +125,55 @@ export class RunView {
   private finish(job: string, { exit_code, verdict, requirements, stopped, report }: Done): void {
     this.stage.textContent = stopped ? "stopped" : "done";
     const table = element("table", {});
-    list(table, requirements ?? [], (r) => r, ({ name, value, unit, met, where }) =>
-      element("tr", { class: met ? "" : "missed", title: where },
-        element("td", { class: met ? "good" : "bad" }, met ? "✓" : "✕"), element("td", {}, name),
-        element("td", { class: "number" }, `${Number(value.toPrecision(3))} ${unit}`)));
+    list(
+      table,
+      requirements ?? [],
+      (r) => r,
+      ({ name, value, unit, met, where }) =>
+        element(
+          "tr",
+          { class: met ? "" : "missed", title: where },
+          element("td", { class: met ? "good" : "bad" }, met ? "✓" : "✕"),
+          element("td", {}, name),
+          element("td", { class: "number" }, measured(value, unit)),
+        ),
+    );
     const files = kFiles.map((name) =>
-      element("a", { href: address("/api/solve/file", { job, name }), download: name }, name));
-    const open = button("Open the report", "players, curves and tables of this run",
-      () => openReport(address("/api/solve/report", { job })), "primary");
-    this.outcome.replaceChildren(element("p", { class: exit_code === 0 ? "good" : "bad" }, verdict),
-      ...(report ? [row(open)] : []), table, element("p", { class: "files" }, ...files));
+      element("a", { href: address("/api/solve/file", { job, name }), download: name }, name),
+    );
+    const open = button(
+      "Open the report",
+      "players, curves and tables of this run",
+      () => openReport(address("/api/solve/report", { job })),
+      "primary",
+    );
+    this.outcome.replaceChildren(
+      element("p", { class: exit_code === 0 ? "good" : "bad" }, verdict),
+      ...(report ? [row(open)] : []),
+      table,
+      element("p", { class: "files" }, ...files),
+    );
   }
 }
 
+// Lengths in cm, as everywhere on the page.
+const measured = (value: number, unit: string) =>
+  unit === "m" ? cm(value) : `${Number(value.toPrecision(3))} ${unit}`;
+
 // Over the page, not instead of it.
 function openReport(url: string): void {
-  const away = element("a", { href: url, target: "_blank", rel: "noopener" }, "in a tab of its own");
+  const away = element(
+    "a",
+    { href: url, target: "_blank", rel: "noopener" },
+    "in a tab of its own",
+  );
   const close = button("Close", "back to the studio (Escape)", () => dialog.close());
-  const dialog = element("dialog", { class: "report", "aria-label": "Report" },
+  const dialog = element(
+    "dialog",
+    { class: "report", "aria-label": "Report" },
     element("div", { class: "row" }, element("h2", {}, "Report"), away, close),
-    element("iframe", { src: url, title: "report of the run" }));
+    element("iframe", { src: url, title: "report of the run" }),
+  );
   document.body.append(dialog);
   dialog.addEventListener("close", () => dialog.remove());
   dialog.showModal();

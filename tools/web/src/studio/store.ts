@@ -50,10 +50,26 @@ export class Store {
   connected = true;
   photoVersion = 0; // so that the browser asks for the picture anew
   ui: Ui = {
-    tool: "pose", selected: null, figure: "a", joint: 0, hovered: null, worldAxes: false,
-    turning: false, shown: { a: "shown", b: "shown" }, heat: false, solid: 0.85, sideViews: true, lit: null,
-    litPair: null, holdFrom: null, holdEdited: null, litHold: null, panel: "figures", locked: false,
-    dragTarget: null, dragging: false,
+    tool: "pose",
+    selected: null,
+    figure: "a",
+    joint: 0,
+    hovered: null,
+    worldAxes: false,
+    turning: false,
+    shown: { a: "shown", b: "shown" },
+    heat: false,
+    solid: 0.85,
+    sideViews: true,
+    lit: null,
+    litPair: null,
+    holdFrom: null,
+    holdEdited: null,
+    litHold: null,
+    panel: "figures",
+    locked: false,
+    dragTarget: null,
+    dragging: false,
   };
   private readonly listeners: (() => void)[] = [];
   private scheduled = false;

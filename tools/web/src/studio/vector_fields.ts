@@ -1,4 +1,4 @@
-// Three numbers in a row that ask for an operation together; dragged by a label they are one gesture.
+// Three numbers in a row that ask for an operation; dragged by a label they are one gesture.
 
 import { element } from "../shared/dom";
 import { newGesture } from "./gizmo";
@@ -21,12 +21,18 @@ export class VectorFields {
   private readonly fields: NumberField[];
   private gesture = 0;
 
-  constructor(private readonly sender: Sender, private readonly options: VectorOptions) {
+  constructor(
+    private readonly sender: Sender,
+    private readonly options: VectorOptions,
+  ) {
     const { label, unit } = options;
     this.fields = ["X", "Y", "Z"].map((name, axis) => this.field(name, axis));
-    this.element = element("div", { class: "triple" },
+    this.element = element(
+      "div",
+      { class: "triple" },
       element("span", {}, `${label} `, element("small", {}, unit)),
-      ...this.fields.map((field) => field.element));
+      ...this.fields.map((field) => field.element),
+    );
   }
 
   set(values: Vec): void {
@@ -54,8 +60,13 @@ export class VectorFields {
       this.gesture = 0;
     };
     return number({
-      label: name, title: `${name}: ${title}`, unit, step, digits,
-      commit: (value) => send(op(axis, value)), ...(scrub ? { live, release } : {}),
+      label: name,
+      title: `${name}: ${title}`,
+      unit,
+      step,
+      digits,
+      commit: (value) => send(op(axis, value)),
+      ...(scrub ? { live, release } : {}),
     });
   }
 }
