@@ -30,7 +30,12 @@ function playwright() {
 if (!existsSync(chromiumPath)) skip(`no ${chromiumPath}`);
 const { chromium } = playwright();
 
-const kSoftwareGl = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const kSoftwareGl = [
+  "--no-sandbox",
+  "--use-gl=angle",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+];
 const scratch = mkdtempSync(join(tmpdir(), "retarget-studio-"));
 const library = join(scratch, "library");
 const clips = ["--clip-a", join(hold, "a.bvh"), "--clip-b", join(hold, "b.bvh")];
@@ -40,8 +45,9 @@ let server, url, browser, page;
 // Starts the studio; resolves with its address.
 function serve(...more) {
   execFileSync("mkdir", ["-p", library]);
-  server = spawn(program, ["studio", "--no-browser", "--library", library, ...clips, ...more],
-    { env: { ...process.env, HOME: scratch, XDG_DATA_HOME: join(scratch, "data") } });
+  server = spawn(program, ["studio", "--no-browser", "--library", library, ...clips, ...more], {
+    env: { ...process.env, HOME: scratch, XDG_DATA_HOME: join(scratch, "data") },
+  });
   return new Promise((done, failed) => {
     let said = "";
     server.stdout.on("data", (data) => {
@@ -53,18 +59,20 @@ function serve(...more) {
     server.on("exit", () => failed(new Error(`the studio ended: ${said}`)));
   });
 }
-const stopServer = () => new Promise((done) => {
-  server.removeAllListeners("exit");
-  server.once("exit", done);
-  server.kill("SIGINT");
-});
+const stopServer = () =>
+  new Promise((done) => {
+    server.removeAllListeners("exit");
+    server.once("exit", done);
+    server.kill("SIGINT");
+  });
 
 const usage = spawnSync(program, ["studio", "--help"], { encoding: "utf8" });
 if (usage.status !== 0 || /no page/.test(usage.stdout)) skip("the program has no studio");
 
 before(async () => {
   url = await serve("--template", join(hold, "template.yaml"));
-  if ((await (await fetch(url)).text()).length < 1e5) skip("the program was built without the studio's page");
+  if ((await (await fetch(url)).text()).length < 1e5)
+    skip("the program was built without the studio's page");
   browser = await chromium.launch({ executablePath: chromiumPath, args: kSoftwareGl });
   page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
   page.on("console", (message) => noise.push(`${message.type()}: ${message.text()}`));
@@ -100,15 +108,30 @@ const state = async () => {
   return page.evaluate(() => window.retargetStudio.state());
 };
 const ui = () => page.evaluate(() => window.retargetStudio.ui);
-const at = (name, view = "main") => page.evaluate(([n, v]) =>
-  window.retargetStudio.project(...n.split("/"), v), [name, view]);
-const nodes = ["root", "chest", "neck", "head", "head_top",
-  ...["left", "right"].flatMap((s) => ["shoulder", "elbow", "wrist", "hand"].map((n) => `${s}_${n}`)),
-  ...["left", "right"].flatMap((s) => ["hip", "knee", "ankle", "toe"].map((n) => `${s}_${n}`))];
+const at = (name, view = "main") =>
+  page.evaluate(([n, v]) => window.retargetStudio.project(...n.split("/"), v), [name, view]);
+const nodes = [
+  "root",
+  "chest",
+  "neck",
+  "head",
+  "head_top",
+  ...["left", "right"].flatMap((s) =>
+    ["shoulder", "elbow", "wrist", "hand"].map((n) => `${s}_${n}`),
+  ),
+  ...["left", "right"].flatMap((s) => ["hip", "knee", "ankle", "toe"].map((n) => `${s}_${n}`)),
+];
 const place = (of, name) => of.figures[name[0]].nodes[nodes.indexOf(name.slice(2))];
 const distance = (p, q) => Math.hypot(...p.map((x, k) => x - q[k]));
-const posture = ({ figures, holds, pins, name, supports, tangles, options }) =>
-  ({ figures, holds, pins, name, supports, tangles, options });
+const posture = ({ figures, holds, pins, name, supports, tangles, options }) => ({
+  figures,
+  holds,
+  pins,
+  name,
+  supports,
+  tangles,
+  options,
+});
 
 async function press(key) {
   await page.keyboard.press(key);
@@ -166,7 +189,12 @@ function picture(width, height) {
   head.writeUInt32BE(height, 4);
   head.set([8, 2, 0, 0, 0], 8);
   const signature = Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]);
-  return Buffer.concat([signature, chunk("IHDR", head), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]);
+  return Buffer.concat([
+    signature,
+    chunk("IHDR", head),
+    chunk("IDAT", deflateSync(rows)),
+    chunk("IEND", Buffer.alloc(0)),
+  ]);
 }
 // CRC-32 of PNG; older versions of node have none.
 function sum(bytes) {
@@ -184,14 +212,23 @@ function sum(bytes) {
 test("opens with the template that was named", async () => {
   const now = await state();
   assert.equal(await page.inputValue("#topbar .name"), now.name);
-  assert.match(readFileSync(join(hold, "template.yaml"), "utf8"), new RegExp(`name: "?${now.name}`));
+  assert.match(
+    readFileSync(join(hold, "template.yaml"), "utf8"),
+    new RegExp(`name: "?${now.name}`),
+  );
   assert.equal(now.dirty, false);
   for (const name of ["a/head", "b/left_toe"]) {
     const { x, y } = await at(name);
     assert.ok(x > 40 && x < 950 && y > 40 && y < 700, `${name} is seen`);
   }
-  const wide = await page.evaluate(() => [document.documentElement.scrollWidth - innerWidth, document.documentElement.scrollHeight - innerHeight]);
-  assert.ok(wide.every((px) => px <= 0), `${wide}`);
+  const wide = await page.evaluate(() => [
+    document.documentElement.scrollWidth - innerWidth,
+    document.documentElement.scrollHeight - innerHeight,
+  ]);
+  assert.ok(
+    wide.every((px) => px <= 0),
+    `${wide}`,
+  );
   await page.setViewportSize({ width: 1060, height: 620 }); // fewer pixels for a processor to draw
 });
 
@@ -215,7 +252,10 @@ test("the list of tangles is that of `retarget tangles` on the saved file", asyn
     assert.equal(await rows[k].getAttribute("data-tag"), `${tag.a.join(" ")} x ${tag.b.join(" ")}`);
     const shown = Number((await rows[k].locator("output").textContent()).replace("−", "-"));
     assert.ok(Math.abs(shown - tag.gli) < 6e-4, `${shown} and ${tag.gli}`);
-    assert.match(await rows[k].locator("small").textContent(), new RegExp(`^\\+${(Math.abs(tag.gli) - 0.5).toFixed(2)}`));
+    assert.match(
+      await rows[k].locator("small").textContent(),
+      new RegExp(`^\\+${(Math.abs(tag.gli) - 0.5).toFixed(2)}`),
+    );
   }
   now = await state();
   assert.equal(now.queries.literal_tangles, told.literal.length);
@@ -241,12 +281,18 @@ test("a dragged hand arrives, and a pinned one stays", async () => {
   let now = await state();
   const start = place(before_, "a/left_hand");
   const wanted = [start[0] - 30 / Math.abs(scale), start[1] - 45 / Math.abs(scale), start[2]];
-  assert.ok(distance(place(now, "a/left_hand"), wanted) < 0.01, `${place(now, "a/left_hand")}, wanted ${wanted}`);
+  assert.ok(
+    distance(place(now, "a/left_hand"), wanted) < 0.01,
+    `${place(now, "a/left_hand")}, wanted ${wanted}`,
+  );
 
   await click("a/left_hand");
   await press("p");
   now = await state();
-  assert.deepEqual(now.pins.map(({ figure, node }) => [figure, node]), [["a", "left_hand"]]);
+  assert.deepEqual(
+    now.pins.map(({ figure, node }) => [figure, node]),
+    [["a", "left_hand"]],
+  );
   await drag("a/right_hand", 40, 70, { view: "front" });
   await drag("a/chest", 8, 6, { view: "side" });
   const later = await state();
@@ -322,7 +368,8 @@ test("undo and redo go to the exact states", async () => {
   seen.push(posture(await state()));
   await press("Shift+M");
   seen.push(posture(await state()));
-  for (let k = seen.length - 1; k > 0; --k) assert.notDeepEqual(seen[k], seen[k - 1], `step ${k} changes something`);
+  for (let k = seen.length - 1; k > 0; --k)
+    assert.notDeepEqual(seen[k], seen[k - 1], `step ${k} changes something`);
   await page.getByRole("button", { name: "Swap a, b" }).click();
   seen.push(posture(await state()));
   for (let k = seen.length - 2; k >= 0; --k) {
@@ -340,13 +387,19 @@ test("mirrored twice is as it was", async () => {
   for (const key of ["m", "Shift+M"]) {
     await press(key);
     const once = await state();
-    assert.ok(distance(place(once, "b/left_hand"), place(before_, "b/left_hand")) > 0.01 ||
-      distance(place(once, "a/left_hand"), place(before_, "a/left_hand")) > 0.01);
+    assert.ok(
+      distance(place(once, "b/left_hand"), place(before_, "b/left_hand")) > 0.01 ||
+        distance(place(once, "a/left_hand"), place(before_, "a/left_hand")) > 0.01,
+    );
     await press(key);
     const twice = await state();
     for (const figure of ["a", "b"]) {
       twice.figures[figure].nodes.forEach((p, k) =>
-        assert.ok(distance(p, before_.figures[figure].nodes[k]) < 1e-9, `${key}: ${figure}/${nodes[k]}`));
+        assert.ok(
+          distance(p, before_.figures[figure].nodes[k]) < 1e-9,
+          `${key}: ${figure}/${nodes[k]}`,
+        ),
+      );
     }
   }
 });
@@ -365,7 +418,14 @@ test("the gizmo moves a whole figure in one step", async () => {
   const now = await state();
   const shift = place(now, "a/root").map((v, k) => v - place(before_, "a/root")[k]);
   assert.ok(shift[1] > 0.03, `${shift}`);
-  now.figures.a.nodes.forEach((p, k) => assert.ok(distance(p, before_.figures.a.nodes[k].map((v, c) => v + shift[c])) < 1e-5));
+  now.figures.a.nodes.forEach((p, k) =>
+    assert.ok(
+      distance(
+        p,
+        before_.figures.a.nodes[k].map((v, c) => v + shift[c]),
+      ) < 1e-5,
+    ),
+  );
   await press("Control+z");
   assert.deepEqual((await state()).figures, before_.figures);
   await press("q");
@@ -373,12 +433,18 @@ test("the gizmo moves a whole figure in one step", async () => {
 
 test("a photo stands behind; a joint is pinned to one of its points", async () => {
   await tab("photo");
-  await page.setInputFiles("input[type=file]", { name: "behind.png", mimeType: "image/png", buffer: picture(400, 300) });
+  await page.setInputFiles("input[type=file]", {
+    name: "behind.png",
+    mimeType: "image/png",
+    buffer: picture(400, 300),
+  });
   await until(() => document.querySelector(".photo").naturalWidth === 400);
   assert.ok((await state()).photo);
   const box = await page.locator(".photo").boundingBox();
   const view = await page.locator(".view.main").boundingBox();
-  assert.ok(Math.abs(box.height - view.height) < 1 && Math.abs(box.width - (view.height * 4) / 3) < 1);
+  assert.ok(
+    Math.abs(box.height - view.height) < 1 && Math.abs(box.width - (view.height * 4) / 3) < 1,
+  );
   await page.getByLabel("opacity of the photo (%)").first().fill("0.8");
   assert.equal((await state()).photo.opacity, 0.8);
 
@@ -410,7 +476,9 @@ test("unsaved work survives a reload, and the server's end", async () => {
   await page.keyboard.press("Enter");
   const before_ = await state();
   assert.equal(before_.dirty, true);
-  await until(() => Object.keys(localStorage).some((k) => localStorage[k].includes("work in progress")));
+  await until(() =>
+    Object.keys(localStorage).some((k) => localStorage[k].includes("work in progress")),
+  );
   await page.reload();
   await until(() => Boolean(window.retargetStudio));
   let now = await state();
@@ -424,7 +492,9 @@ test("unsaved work survives a reload, and the server's end", async () => {
   now = await state();
   assert.equal(now.name, "work in progress");
   for (const figure of ["a", "b"]) {
-    now.figures[figure].nodes.forEach((p, k) => assert.ok(distance(p, before_.figures[figure].nodes[k]) < 1e-5));
+    now.figures[figure].nodes.forEach((p, k) =>
+      assert.ok(distance(p, before_.figures[figure].nodes[k]) < 1e-5),
+    );
   }
   noise.splice(0); // the old session's 404 and what asked while nobody answered
 });
@@ -463,8 +533,12 @@ test("keyboard map, focus and themes", async () => {
   assert.ok(await page.getByText("pin or free the joint").isVisible());
   await page.keyboard.press("Escape");
   await page.keyboard.press("Tab");
-  assert.equal(await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle), "solid");
-  const paper = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  assert.equal(
+    await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle),
+    "solid",
+  );
+  const paper = () =>
+    page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
   const light = await paper();
   await page.getByRole("button", { name: "light or dark" }).click();
   assert.notEqual(await paper(), light);

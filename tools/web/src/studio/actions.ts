@@ -16,7 +16,9 @@ export class Actions {
   photoPreview: Photo | null = null; // while a slider or the mouse moves it
 
   constructor(
-    private readonly store: Store, private readonly sender: Sender, readonly viewport: Viewport,
+    private readonly store: Store,
+    private readonly sender: Sender,
+    readonly viewport: Viewport,
   ) {}
 
   do(...ops: Op[]): Promise<boolean> {
@@ -43,7 +45,8 @@ export class Actions {
     const said: Partial<Record<Tool, string>> = {
       hold: "Connect: click a joint, then the joint that it holds, or the floor.",
       pin: "Pin: click joints to pin them where they are, or to free them. Dragging still poses.",
-      "photo-pin": "Pin to the photo: drag a joint to its point in the photo. The depth is left to the solver.",
+      "photo-pin":
+        "Pin to the photo: drag a joint to its point in it. The depth is left to the solver.",
       "photo-move": "Move the photo: drag in the main view.",
       rotate: ui.selected ? "" : "Rotate: click a joint.",
     };
@@ -68,14 +71,20 @@ export class Actions {
     const from = ui.holdFrom;
     if (!from) {
       this.store.set({ holdFrom: pick });
-      this.store.say(`${nodeOf(pick.figure, this.store.nodeName(pick))}: now click what it holds, or the floor.`);
+      this.store.say(
+        `${nodeOf(pick.figure, this.store.nodeName(pick))}: now click what it holds, or the floor.`,
+      );
       return;
     }
     if (from.figure === pick.figure && from.node === pick.node) {
       this.store.set({ holdFrom: null });
       return;
     }
-    this.connect(from, { figure: pick.figure, node: this.store.nodeName(pick), ...this.offsetOf(from, pick) });
+    this.connect(from, {
+      figure: pick.figure,
+      node: this.store.nodeName(pick),
+      ...this.offsetOf(from, pick),
+    });
   }
 
   holdToWorld(place: Vec | null): void {
@@ -103,8 +112,15 @@ export class Actions {
 
   private connect(from: Pick, to: HoldEnd): void {
     const { holdEdited } = this.store.ui;
-    const hold = { from: { figure: from.figure, node: this.store.nodeName(from) }, to, rotation: false };
-    const op: Op = holdEdited === null ? { op: "add_hold", ...hold } : { op: "edit_hold", index: holdEdited, ...hold };
+    const hold = {
+      from: { figure: from.figure, node: this.store.nodeName(from) },
+      to,
+      rotation: false,
+    };
+    const op: Op =
+      holdEdited === null
+        ? { op: "add_hold", ...hold }
+        : { op: "edit_hold", index: holdEdited, ...hold };
     this.store.set({ tool: "pose", holdFrom: null, holdEdited: null, panel: "holds" });
     const ops = to.offset ? [op, { op: "settle" }] : [op];
     void this.do(...ops).then((done) => {
@@ -145,7 +161,9 @@ export class Actions {
     if (!selected) return;
     const { camera } = this.viewport.main;
     const [x, y] = [0, 1].map((k) => new Vector3().setFromMatrixColumn(camera.matrixWorld, k));
-    const target = new Vector3(...this.store.place(selected)).addScaledVector(x, right).addScaledVector(y, up);
+    const target = new Vector3(...this.store.place(selected))
+      .addScaledVector(x, right)
+      .addScaledVector(y, up);
     this.dragTo(selected, target.toArray() as Vec);
   }
   dragTo(pick: Pick, target: Vec): void {
@@ -170,7 +188,9 @@ export class Actions {
   isolate(as: "ghost" | "hidden"): void {
     const { shown, figure } = this.store.ui;
     const other = figure === "a" ? "b" : "a";
-    this.store.set({ shown: { ...shown, [figure]: "shown", [other]: shown[other] === as ? "shown" : as } });
+    this.store.set({
+      shown: { ...shown, [figure]: "shown", [other]: shown[other] === as ? "shown" : as },
+    });
   }
 
   // -- View --------------------------------------------------------------------------------------
@@ -182,9 +202,12 @@ export class Actions {
   }
   frame(selectionOnly: boolean): void {
     const { state, ui } = this.store;
-    const points = selectionOnly && ui.selected
-      ? [new Vector3(...this.store.place(ui.selected))]
-      : figureNames.filter((f) => ui.shown[f] !== "hidden").flatMap((f) => state.figures[f].nodes.map((p) => new Vector3(...p)));
+    const points =
+      selectionOnly && ui.selected
+        ? [new Vector3(...this.store.place(ui.selected))]
+        : figureNames
+            .filter((f) => ui.shown[f] !== "hidden")
+            .flatMap((f) => state.figures[f].nodes.map((p) => new Vector3(...p)));
     this.viewport.frameAll(points);
   }
 

@@ -4,7 +4,11 @@ const token = new URLSearchParams(location.search).get("token") ?? "";
 
 // The server's one sentence about what was wrong. Status 0: it does not answer at all.
 export class ServerError extends Error {
-  constructor(readonly status: number, message: string, readonly reason = "") {
+  constructor(
+    readonly status: number,
+    message: string,
+    readonly reason = "",
+  ) {
     super(message);
   }
 }
@@ -31,8 +35,14 @@ async function request(method: string, path: string, query: Query, body?: BodyIn
   let said: { error?: string; reason?: string } = {};
   try {
     said = JSON.parse(text) as typeof said;
-  } catch { /* not JSON: the text itself is the message */ }
-  throw new ServerError(reply.status, said.error ?? (text || `status ${reply.status}`), said.reason);
+  } catch {
+    /* not JSON: the text itself is the message */
+  }
+  throw new ServerError(
+    reply.status,
+    said.error ?? (text || `status ${reply.status}`),
+    said.reason,
+  );
 }
 
 export async function get<T>(path: string, query: Query = {}): Promise<T> {
@@ -55,8 +65,9 @@ export async function post<T>(path: string, body: object): Promise<T> {
   return reply.json() as Promise<T>;
 }
 export async function postFile<T>(path: string, query: Query, file: Blob): Promise<T> {
-  return (await request("POST", path, query, file, file.type || "application/octet-stream"))
-    .json() as Promise<T>;
+  return (
+    await request("POST", path, query, file, file.type || "application/octet-stream")
+  ).json() as Promise<T>;
 }
 export async function remove<T>(path: string, query: Query): Promise<T> {
   return (await request("DELETE", path, query)).json() as Promise<T>;

@@ -19,9 +19,19 @@ function iconButton(name: IconName, title: string, act: () => void): HTMLButtonE
 
 // -- Top -----------------------------------------------------------------------------------------
 
-export function fillTopBar(store: Store, actions: Actions, session: Session, help: () => void): void {
+export function fillTopBar(
+  store: Store,
+  actions: Actions,
+  session: Session,
+  help: () => void,
+): void {
   const bar = byId("topbar");
-  const name = element("input", { type: "text", class: "name", title: "name of the template", maxlength: "120" });
+  const name = element("input", {
+    type: "text",
+    class: "name",
+    title: "name of the template",
+    maxlength: "120",
+  });
   name.addEventListener("change", () => {
     const text = name.value.trim();
     if (text && text !== store.state.name) void actions.do({ op: "set_name", name: text });
@@ -39,8 +49,17 @@ export function fillTopBar(store: Store, actions: Actions, session: Session, hel
   };
   const chosen = localStorage.getItem(kTheme);
   if (chosen) setTheme(chosen === "dark");
-  bar.append(element("b", { class: "brand" }, "retarget", element("span", {}, " studio")), name, dirty,
-    element("span", { class: "space" }), undo, redo, save, theme, button("?", "keyboard map (?)", help));
+  bar.append(
+    element("b", { class: "brand" }, "retarget", element("span", {}, " studio")),
+    name,
+    dirty,
+    element("span", { class: "space" }),
+    undo,
+    redo,
+    save,
+    theme,
+    button("?", "keyboard map (?)", help),
+  );
   store.onChange(() => {
     const { state } = store;
     if (document.activeElement !== name) name.value = state.name;
@@ -72,16 +91,39 @@ export function fillToolbar(store: Store, actions: Actions): void {
     return made;
   });
   const line = () => element("hr", {});
-  const axes = iconButton("world", "gizmo axes: the joint's own or the world's (X)", () => store.set({ worldAxes: !store.ui.worldAxes }));
-  const heat = iconButton("heat", "heat map of |GLI| on the bodies (H)", () => store.set({ heat: !store.ui.heat }));
-  const ghost = iconButton("ghost", "the other figure as a ghost (G); isolate: I", () => actions.isolate("ghost"));
-  const views = iconButton("views", "side views (V)", () => store.set({ sideViews: !store.ui.sideViews }));
-  bar.append(...tools, line(), axes, iconButton("settle", "Settle: close holds, restore limits and distances (S)", () => actions.settle()),
-    iconButton("mirror", "Mirror this figure (M)", () => actions.mirror(store.ui.figure)), line(), heat, ghost, views,
-    iconButton("frame", "Frame both figures (Home); the selected joint: F", () => actions.frame(false)));
+  const axes = iconButton("world", "gizmo axes: the joint's own or the world's (X)", () =>
+    store.set({ worldAxes: !store.ui.worldAxes }),
+  );
+  const heat = iconButton("heat", "heat map of |GLI| on the bodies (H)", () =>
+    store.set({ heat: !store.ui.heat }),
+  );
+  const ghost = iconButton("ghost", "the other figure as a ghost (G); isolate: I", () =>
+    actions.isolate("ghost"),
+  );
+  const views = iconButton("views", "side views (V)", () =>
+    store.set({ sideViews: !store.ui.sideViews }),
+  );
+  bar.append(
+    ...tools,
+    line(),
+    axes,
+    iconButton("settle", "Settle: close holds, restore limits and distances (S)", () =>
+      actions.settle(),
+    ),
+    iconButton("mirror", "Mirror this figure (M)", () => actions.mirror(store.ui.figure)),
+    line(),
+    heat,
+    ghost,
+    views,
+    iconButton("frame", "Frame both figures (Home); the selected joint: F", () =>
+      actions.frame(false),
+    ),
+  );
   store.onChange(() => {
     const { ui, state } = store;
-    tools.forEach((made) => made.setAttribute("aria-pressed", String(made.dataset.tool === ui.tool)));
+    tools.forEach((made) =>
+      made.setAttribute("aria-pressed", String(made.dataset.tool === ui.tool)),
+    );
     tools[5].hidden = !state.photo;
     const press = (made: HTMLElement, on: boolean) => made.setAttribute("aria-pressed", String(on));
     press(axes, ui.worldAxes);
@@ -107,14 +149,20 @@ function solved(store: Store): { text: string; bad: boolean } {
     bad = true;
   }
   if (result.drag_error_m > 0.01) said.push(`${cm(result.drag_error_m)} short of the target`);
-  if (result.pin_error_m > 0.005) said.push(`a pin or a standing foot gives way by ${cm(result.pin_error_m)}`);
+  if (result.pin_error_m > 0.005)
+    said.push(`a pin or a standing foot gives way by ${cm(result.pin_error_m)}`);
   if (said.length === 0) said.push("reached");
-  said.push(`${result.iterations} steps`, `${result.ms < 10 ? result.ms.toFixed(1) : Math.round(result.ms)} ms`);
+  said.push(
+    `${result.iterations} steps`,
+    `${result.ms < 10 ? result.ms.toFixed(1) : Math.round(result.ms)} ms`,
+  );
   return { text: said.join(" · "), bad };
 }
 
 const kHints: Record<Tool, string> = {
-  pose: "drag a joint: pose · Shift: depth · Alt: along the line of sight · drag beside: orbit · right: pan · wheel: zoom",
+  pose:
+    "drag a joint: pose · Shift: depth · Alt: along the line of sight · " +
+    "drag beside: orbit · right: pan · wheel: zoom",
   rotate: "drag a ring: turn the joint · X: own or world axes",
   move: "drag an arrow: move the figure · T again: turn it",
   pin: "click a joint: pin or free it",
@@ -126,13 +174,17 @@ const kHints: Record<Tool, string> = {
 export function fillStatus(store: Store): void {
   const bar = byId("status");
   const message = element("span", { class: "message", role: "status", "aria-live": "polite" });
-  const solver = element("span", { class: "solver", title: "what the solver did with the last drag" });
+  const solver = element("span", {
+    class: "solver",
+    title: "what the solver did with the last drag",
+  });
   const hint = element("span", { class: "hint" });
   const counts = element("span", { class: "counts" });
   bar.append(message, solver, element("span", { class: "space" }), hint, counts);
   store.onChange(() => {
     const { state, ui } = store;
-    const { text, kind } = store.connected ? store.message
+    const { text, kind } = store.connected
+      ? store.message
       : { text: "The studio's server does not answer. Trying again…", kind: "bad" };
     message.textContent = text;
     message.className = `message ${kind}`;
@@ -142,7 +194,11 @@ export function fillStatus(store: Store): void {
     hint.textContent = kHints[ui.tool];
     const open = state.holds.filter((h) => h.error_m > 0.01).length;
     const { warnings } = state.queries;
-    counts.textContent = [open > 0 ? `${open} open hold${open > 1 ? "s" : ""} (S settles)` : "",
-      warnings.length > 0 ? `${warnings.length} warning${warnings.length > 1 ? "s" : ""}` : ""].filter(Boolean).join(" · ");
+    counts.textContent = [
+      open > 0 ? `${open} open hold${open > 1 ? "s" : ""} (S settles)` : "",
+      warnings.length > 0 ? `${warnings.length} warning${warnings.length > 1 ? "s" : ""}` : "",
+    ]
+      .filter(Boolean)
+      .join(" · ");
   });
 }

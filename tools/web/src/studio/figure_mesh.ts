@@ -1,8 +1,16 @@
 // One figure as capsules between its nodes, and a nose that says where it looks.
 
 import {
-  BufferAttribute, BufferGeometry, Color, Group, Mesh, MeshLambertMaterial, Quaternion,
-  SRGBColorSpace, Vector3, type MeshBasicMaterial,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  Group,
+  Mesh,
+  MeshLambertMaterial,
+  Quaternion,
+  SRGBColorSpace,
+  Vector3,
+  type MeshBasicMaterial,
 } from "three";
 import { findNode } from "../shared/body";
 import type { Rgb } from "../shared/colours";
@@ -21,8 +29,13 @@ function sphere(around: number, rings: number): Vector3[] {
     const angle = (Math.PI / 2) * (step / (rings / 2 - 1)); // from the seam to the pole
     for (let k = 0; k < around; ++k) {
       const turn = (2 * Math.PI * k) / around;
-      directions.push(new Vector3(
-        Math.cos(angle) * Math.cos(turn), half * Math.sin(angle), Math.cos(angle) * Math.sin(turn)));
+      directions.push(
+        new Vector3(
+          Math.cos(angle) * Math.cos(turn),
+          half * Math.sin(angle),
+          Math.cos(angle) * Math.sin(turn),
+        ),
+      );
     }
   }
   return directions;
@@ -56,8 +69,12 @@ export class FigureMesh {
   private readonly directions: Vector3[];
 
   // `around`: vertices round a capsule, even.
-  constructor(private body: FigureBody, shadow: MeshBasicMaterial, around: number) {
-    const rings = around / 2 + (around / 2) % 2;
+  constructor(
+    private body: FigureBody,
+    shadow: MeshBasicMaterial,
+    around: number,
+  ) {
+    const rings = around / 2 + ((around / 2) % 2);
     this.directions = sphere(around, rings);
     this.capsules = body.nodes.length; // a segment per node but the root, and the nose
     const size = 3 * this.directions.length * this.capsules;
@@ -79,12 +96,18 @@ export class FigureMesh {
     this.body = body;
   }
 
-  ghost(on: boolean): void {
-    this.material.transparent = on;
-    this.material.opacity = on ? 0.22 : 1;
-    this.material.depthWrite = !on;
-    this.material.needsUpdate = true;
-    this.shadow.visible = !on;
+  // A ghost is seen through, and what is behind it too.
+  appear(opacity: number, ghost: boolean): void {
+    const { material } = this;
+    material.opacity = ghost ? 0.22 : opacity;
+    material.depthWrite = !ghost;
+    if (material.transparent !== material.opacity < 1) {
+      material.transparent = material.opacity < 1;
+      material.needsUpdate = true;
+    }
+  }
+  castShadow(on: boolean): void {
+    this.shadow.visible = on;
   }
 
   pose(state: FigureState): void {
@@ -98,7 +121,9 @@ export class FigureMesh {
     const axis = at(kHeadTop).sub(at(kHead));
     const ahead = new Vector3(0, 0, 1).applyQuaternion(turn);
     const point = (along: number, out: number) =>
-      at(kHead).addScaledVector(axis, along).addScaledVector(ahead, out * radius);
+      at(kHead)
+        .addScaledVector(axis, along)
+        .addScaledVector(ahead, out * radius);
     this.capsule(this.capsules - 1, point(0.68, 0.85), point(0.55, 1.12), 0.26 * radius);
     this.position.needsUpdate = this.normal.needsUpdate = true;
   }
@@ -112,7 +137,9 @@ export class FigureMesh {
     this.directions.forEach((direction, k) => {
       const vertex = 3 * (index * count + k);
       out.copy(direction).applyQuaternion(turn).toArray(this.normal.array, vertex);
-      out.multiplyScalar(radius).add(k < count / 2 ? from : to)
+      out
+        .multiplyScalar(radius)
+        .add(k < count / 2 ? from : to)
         .toArray(this.position.array, vertex);
     });
   }

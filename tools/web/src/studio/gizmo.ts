@@ -20,7 +20,9 @@ export class Gizmo {
   private op: Op | null = null;
 
   constructor(
-    private readonly viewport: Viewport, private readonly store: Store, private readonly sender: Sender,
+    private readonly viewport: Viewport,
+    private readonly store: Store,
+    private readonly sender: Sender,
   ) {
     const { main, scene } = viewport;
     this.controls = new TransformControls(main.camera, main.element);
@@ -81,11 +83,25 @@ export class Gizmo {
     const { name, parent } = body[ui.figure].links[link];
     const world = this.handle.quaternion.clone();
     if (parent >= 0) {
-      const local = new Quaternion(...state.figures[ui.figure].frames[parent]).invert().multiply(world);
-      this.op = { op: "set_joint", figure: ui.figure, joint: name, rotation_vector: rotationVectorOf(local) };
+      const local = new Quaternion(...state.figures[ui.figure].frames[parent])
+        .invert()
+        .multiply(world);
+      this.op = {
+        op: "set_joint",
+        figure: ui.figure,
+        joint: name,
+        rotation_vector: rotationVectorOf(local),
+      };
     } else {
-      const position = rotates ? new Vector3(...state.figures[ui.figure].root.position) : this.handle.position;
-      this.op = { op: "set_root", figure: ui.figure, position: position.toArray(), rotation_vector: rotationVectorOf(world) };
+      const position = rotates
+        ? new Vector3(...state.figures[ui.figure].root.position)
+        : this.handle.position;
+      this.op = {
+        op: "set_root",
+        figure: ui.figure,
+        position: position.toArray(),
+        rotation_vector: rotationVectorOf(world),
+      };
     }
     this.op.gesture = this.gesture;
     this.sender.drag(this.op);

@@ -25,9 +25,15 @@ declare global {
 
 export function exposeHook(store: Store, sender: Sender, viewport: Viewport): void {
   window.retargetStudio = {
-    get session() { return store.session; },
-    get requests() { return sender.requests; },
-    get ui() { return store.ui; },
+    get session() {
+      return store.session;
+    },
+    get requests() {
+      return sender.requests;
+    },
+    get ui() {
+      return store.ui;
+    },
     state: () => store.state,
     project(figure, node, name = "main") {
       const view = viewport.views.find((v) => v.name === name)!;

@@ -32,7 +32,7 @@ export function rotationVectorOf(q: Quaternion): Vec {
   const v = new Vector3(q.x, q.y, q.z).multiplyScalar(sign);
   const sine = v.length();
   const angle = MathUtils.radToDeg(2 * Math.atan2(sine, sign * q.w));
-  return sine === 0 ? [0, 0, 0] : v.multiplyScalar(angle / sine).toArray() as Vec;
+  return sine === 0 ? [0, 0, 0] : (v.multiplyScalar(angle / sine).toArray() as Vec);
 }
 
 function twistOf(rotation: Quaternion, axis: Vector3): number {
@@ -57,11 +57,11 @@ export function readLimits(limits: Limits, rotation_vector: Vec): LimitReading[]
     if (bend < -90) bend += 360;
     read("bend", bend, ...limits.bend);
     const side = MathUtils.radToDeg(Math.asin(Math.min(1, Math.max(-1, direction.dot(hinge)))));
-    const play = limits.play ?? 180;
+    const play = limits.hinge_play ?? 180;
     if (play < 179) read("sideways", side, -play, play);
-  } else if (limits.swing_centre && (limits.swing ?? 180) < 179) {
+  } else if (limits.swing_centre && (limits.swing_max ?? 180) < 179) {
     const swing = MathUtils.radToDeg(clampedAcos(direction.dot(vector(limits.swing_centre))));
-    read("swing", swing, 0, limits.swing!);
+    read("swing", swing, 0, limits.swing_max!);
   }
   if (limits.twist && limits.twist[1] - limits.twist[0] < 359) {
     read("twist", twistOf(rotation, axis), ...limits.twist);
@@ -92,22 +92,31 @@ export function drawLimits(context: CanvasRenderingContext2D, view: View, store:
   if (hinged) {
     const hinge = vector(limits.hinge_axis!);
     const [from, to] = limits.bend!.map(MathUtils.degToRad);
-    for (let k = 0; k <= 40; ++k) directions.push(axis.clone().applyAxisAngle(hinge, from + ((to - from) * k) / 40));
-  } else if (limits.swing_centre && (limits.swing ?? 180) < 179) {
+    for (let k = 0; k <= 40; ++k)
+      directions.push(axis.clone().applyAxisAngle(hinge, from + ((to - from) * k) / 40));
+  } else if (limits.swing_centre && (limits.swing_max ?? 180) < 179) {
     const middle = vector(limits.swing_centre).normalize();
-    const side = middle.clone().cross(Math.abs(middle.y) < 0.9 ? new Vector3(0, 1, 0) : new Vector3(1, 0, 0)).normalize();
-    const rim = middle.clone().applyAxisAngle(side, MathUtils.degToRad(limits.swing!));
-    for (let k = 0; k <= 60; ++k) directions.push(rim.clone().applyAxisAngle(middle, (2 * Math.PI * k) / 60));
+    const side = middle
+      .clone()
+      .cross(Math.abs(middle.y) < 0.9 ? new Vector3(0, 1, 0) : new Vector3(1, 0, 0))
+      .normalize();
+    const rim = middle.clone().applyAxisAngle(side, MathUtils.degToRad(limits.swing_max!));
+    for (let k = 0; k <= 60; ++k)
+      directions.push(rim.clone().applyAxisAngle(middle, (2 * Math.PI * k) / 60));
   } else {
     return;
   }
   const middle = view.project(centre);
-  const now = onPage(axis.clone().applyQuaternion(new Quaternion().copy(rotationOf(state.rotation_vectors[joint]))));
+  const now = onPage(
+    axis.clone().applyQuaternion(new Quaternion().copy(rotationOf(state.rotation_vectors[joint]))),
+  );
   const points = directions.map(onPage);
   if (!middle || points.some((p) => !p)) return;
   context.beginPath();
   if (hinged) context.moveTo(middle.x, middle.y);
-  points.forEach((p, k) => (k === 0 && !hinged ? context.moveTo(p!.x, p!.y) : context.lineTo(p!.x, p!.y)));
+  points.forEach((p, k) =>
+    k === 0 && !hinged ? context.moveTo(p!.x, p!.y) : context.lineTo(p!.x, p!.y),
+  );
   if (hinged) context.closePath();
   const colour = beyond ? "#E69F00" : themeColour("--accent");
   context.globalAlpha = 0.16;

@@ -5,6 +5,7 @@ import "./studio.css";
 import { byId, element } from "../shared/dom";
 import { Actions } from "./actions";
 import { fillStatus, fillToolbar, fillTopBar } from "./bars";
+import { CameraSection } from "./camera_section";
 import { Gizmo } from "./gizmo";
 import { exposeHook } from "./hook";
 import { Keys } from "./keys";
@@ -36,39 +37,55 @@ async function start(): Promise<void> {
   const pointer = new Pointer(viewport, store, sender, gizmo, actions);
   const overlay = new Overlay(store);
   const photoLayer = new PhotoLayer(actions, store);
-  viewport.onDraw((context, view) => overlay.draw(context, view), () => photoLayer.place());
+  viewport.onDraw(
+    (context, view) => overlay.draw(context, view),
+    () => photoLayer.place(),
+  );
 
   const library = new LibraryPanel(store, actions, session);
-  const photo = new PhotoPanel(store, actions, session);
+  const camera = new CameraSection(store, actions);
+  const photo = new PhotoPanel(store, actions, session, camera);
   const tryIt = new TryPanel(store);
   const startFrom = () => openStartDialog(store, session, library.known);
   const figures = new FiguresPanel(store, actions, sender, startFrom);
   fillSide(store, {
-    figures: figures.element, holds: new HoldsPanel(store, actions).element,
-    tangles: new TanglesPanel(store, actions).element, photo: photo.element,
-    library: library.element, try: tryIt.element,
+    figures: figures.element,
+    holds: new HoldsPanel(store, actions).element,
+    tangles: new TanglesPanel(store, actions).element,
+    photo: photo.element,
+    library: library.element,
+    try: tryIt.element,
   });
   const escape = () => {
     if (pointer.cancel()) return;
     if (store.ui.tool !== "pose" || store.ui.holdFrom) actions.tool("pose");
     else store.select(null);
   };
-  const keys = new Keys(store, actions, session, escape, () => photo.setLock(!store.ui.locked), startFrom);
+  const keys = new Keys(
+    store,
+    actions,
+    session,
+    escape,
+    () => camera.setLock(!store.ui.locked),
+    startFrom,
+  );
   fillTopBar(store, actions, session, () => keys.help());
   fillToolbar(store, actions);
   fillStatus(store);
   session.onLoad = () => {
     store.select(null);
-    photo.loaded();
+    camera.loaded();
   };
   session.onLoad();
-  photo.keepView();
+  camera.keepView(session.resumed);
   await Promise.all([library.load(), tryIt.load()]);
   exposeHook(store, sender, viewport);
 }
 
 start().catch((error: Error) => {
-  const said = error.message === "no WebGL"
-    ? "The studio draws with WebGL, which this browser does not offer." : error.message;
+  const said =
+    error.message === "no WebGL"
+      ? "The studio draws with WebGL, which this browser does not offer."
+      : error.message;
   byId("viewport").append(element("p", { class: "failure", role: "alert" }, said));
 });

@@ -87,7 +87,8 @@ export class Overlay {
         if (!at) return;
         const [hovered, selected] = [same(ui.hovered, pick), same(ui.selected, pick)];
         const behind = !hovered && !selected && isBehind(store, view, pick);
-        const radius = (hovered || selected ? 6.5 : isMinor(name) ? 3.4 : 4.6) * small * (rem() / 13);
+        const radius =
+          (hovered || selected ? 6.5 : isMinor(name) ? 3.4 : 4.6) * small * (rem() / 13);
         context.globalAlpha = behind ? 0.3 : 1;
         disc(context, at, radius);
         context.fillStyle = cssOf(mix(colour, [1, 1, 1], hovered ? 0.65 : 0.25));
@@ -130,8 +131,13 @@ export class Overlay {
     context.strokeStyle = themeColour("--accent");
     for (const { ray } of this.store.state.pins) {
       if (!ray) continue;
-      const [origin, direction] = [new Vector3(...ray.origin), new Vector3(...ray.direction).normalize()];
-      const [from, to] = [0.5, 9].map((s) => view.project(origin.clone().addScaledVector(direction, s)));
+      const [origin, direction] = [
+        new Vector3(...ray.origin),
+        new Vector3(...ray.direction).normalize(),
+      ];
+      const [from, to] = [0.5, 9].map((s) =>
+        view.project(origin.clone().addScaledVector(direction, s)),
+      );
       if (from && to && Math.hypot(from.x - to.x, from.y - to.y) > 3) line(context, from, to);
     }
     context.setLineDash([]);
@@ -146,7 +152,10 @@ export class Overlay {
       const colour = open ? themeColour("--bad") : themeColour("--good");
       context.setLineDash(open ? [5, 4] : []);
       context.lineCap = "round";
-      for (const [width, stroke] of [[lit ? 8 : 5.5, "rgb(255 255 255 / 0.9)"], [lit ? 5 : 3, colour]] as const) {
+      for (const [width, stroke] of [
+        [lit ? 8 : 5.5, "rgb(255 255 255 / 0.9)"],
+        [lit ? 5 : 3, colour],
+      ] as const) {
         context.lineWidth = width;
         context.strokeStyle = stroke;
         line(context, from, to);
@@ -184,7 +193,9 @@ export class Overlay {
         const place = this.store.place({ figure, node });
         if (place[1] > 0.15) continue;
         const at = view.project([place[0], 0, place[2]] as Vec);
-        const across = new Vector3().setFromMatrixColumn(view.camera.matrixWorld, 0).multiplyScalar(0.045);
+        const across = new Vector3()
+          .setFromMatrixColumn(view.camera.matrixWorld, 0)
+          .multiplyScalar(0.045);
         const edge = view.project(new Vector3(place[0], 0, place[2]).add(across));
         if (!at || !edge) continue;
         const half = Math.hypot(edge.x - at.x, edge.y - at.y);
@@ -195,7 +206,8 @@ export class Overlay {
 
   private overlaps(context: Context, view: View): void {
     const colour = "#D55E00";
-    for (const { depth_m, place } of this.store.state.queries.overlaps) {
+    // Deepest first; that one alone says how deep.
+    for (const [k, { depth_m, place }] of this.store.state.queries.overlaps.entries()) {
       if (depth_m < kOverlapFrom) continue;
       const at = view.project(place);
       if (!at) continue;
@@ -205,7 +217,8 @@ export class Overlay {
       context.lineWidth = 2;
       context.strokeStyle = colour;
       context.stroke();
-      if (view.name === "main") label(context, view, `${cm(depth_m)} inside`, at, themeColour("--bad"));
+      if (view.name === "main" && k === 0)
+        label(context, view, `${cm(depth_m)} inside`, at, themeColour("--bad"));
     }
   }
 
@@ -230,7 +243,12 @@ export class Overlay {
     if (!named) return;
     const at = view.project(this.store.place(named));
     if (!at || (view.name !== "main" && !view.element.matches(":hover"))) return;
-    label(context, view, nodeOf(named.figure, this.store.nodeName(named)), at,
-      themeColour(`--figure-${named.figure}`));
+    label(
+      context,
+      view,
+      nodeOf(named.figure, this.store.nodeName(named)),
+      at,
+      themeColour(`--figure-${named.figure}`),
+    );
   }
 }

@@ -11,28 +11,82 @@ import { button, note, row, section } from "./widgets";
 
 export class LibraryPanel {
   readonly element = element("div", { class: "panel" });
-  private readonly name = element("input", { type: "text", title: "name of the template", maxlength: "120" });
-  private readonly description = element("textarea", { rows: "2", title: "what the template shows, in a sentence" });
-  private readonly tags = element("input", { type: "text", title: "words to find it by, with commas between" });
-  private readonly search = element("input", { type: "search", placeholder: "Search names and tags", "aria-label": "search names and tags" });
+  private readonly name = element("input", {
+    type: "text",
+    title: "name of the template",
+    maxlength: "120",
+  });
+  private readonly description = element("textarea", {
+    rows: "2",
+    title: "what the template shows, in a sentence",
+  });
+  private readonly tags = element("input", {
+    type: "text",
+    title: "words to find it by, with commas between",
+  });
+  private readonly search = element("input", {
+    type: "search",
+    placeholder: "Search names and tags",
+    "aria-label": "search names and tags",
+  });
   private readonly items = element("ul", { class: "templates" });
   private readonly where = note("");
   private templates: TemplateInfo[] = [];
   private stamp = 0;
 
-  constructor(private readonly store: Store, actions: Actions, private readonly session: Session) {
-    const field = (label: string, input: HTMLElement) => element("label", { class: "field" }, label, input);
+  constructor(
+    private readonly store: Store,
+    actions: Actions,
+    private readonly session: Session,
+  ) {
+    const field = (label: string, input: HTMLElement) =>
+      element("label", { class: "field" }, label, input);
     const save = button("Save", "save the template (Ctrl+S)", () => void session.save(), "primary");
     this.element.append(
-      section("This template", field("Name", this.name), field("Description", this.description), field("Tags", this.tags),
-        row(save, button("Save as…", "save under another name (Ctrl+Shift+S)", () => void session.saveAs()))),
+      section(
+        "This template",
+        field("Name", this.name),
+        field("Description", this.description),
+        field("Tags", this.tags),
+        row(
+          save,
+          button("Save as…", "save under another name (Ctrl+Shift+S)", () => void session.saveAs()),
+        ),
+      ),
       section("Templates", this.search, this.items, this.where),
     );
-    const edit = (input: HTMLInputElement | HTMLTextAreaElement, now: () => string, act: (text: string) => void) =>
-      input.addEventListener("change", () => input.value.trim() !== now() && act(input.value.trim()));
-    edit(this.name, () => store.state.name, (name) => void (name ? actions.do({ op: "set_name", name }) : (this.name.value = store.state.name)));
-    edit(this.description, () => store.state.description, (description) => void actions.do({ op: "set_description", description }));
-    edit(this.tags, () => store.state.tags_words.join(", "), (text) => void actions.do({ op: "set_tags", tags: text.split(",").map((t) => t.trim()).filter(Boolean) }));
+    const edit = (
+      input: HTMLInputElement | HTMLTextAreaElement,
+      now: () => string,
+      act: (text: string) => void,
+    ) =>
+      input.addEventListener(
+        "change",
+        () => input.value.trim() !== now() && act(input.value.trim()),
+      );
+    edit(
+      this.name,
+      () => store.state.name,
+      (name) =>
+        void (name ? actions.do({ op: "set_name", name }) : (this.name.value = store.state.name)),
+    );
+    edit(
+      this.description,
+      () => store.state.description,
+      (description) => void actions.do({ op: "set_description", description }),
+    );
+    edit(
+      this.tags,
+      () => store.state.tags_words.join(", "),
+      (text) =>
+        void actions.do({
+          op: "set_tags",
+          tags: text
+            .split(",")
+            .map((t) => t.trim())
+            .filter(Boolean),
+        }),
+    );
     this.search.addEventListener("input", () => this.list());
     session.onLibrary = () => void this.load();
     store.onChange(() => this.refresh());
@@ -40,7 +94,9 @@ export class LibraryPanel {
 
   async load(): Promise<void> {
     await trying(this.store.say.bind(this.store), async () => {
-      const { folder, templates } = await get<{ folder: string; templates: TemplateInfo[] }>("/api/library");
+      const { folder, templates } = await get<{ folder: string; templates: TemplateInfo[] }>(
+        "/api/library",
+      );
       this.templates = templates;
       this.where.textContent = `Folder: ${folder}`;
       ++this.stamp;
@@ -71,20 +127,60 @@ export class LibraryPanel {
       return wanted.every((word) => text.includes(word));
     });
     this.items.replaceChildren(...hits.map((t) => this.item(t)));
-    if (hits.length === 0) this.items.append(element("li", { class: "note" }, this.templates.length === 0 ? "No templates yet: Save makes the first." : "Nothing by these words."));
+    if (hits.length === 0)
+      this.items.append(
+        element(
+          "li",
+          { class: "note" },
+          this.templates.length === 0
+            ? "No templates yet: Save makes the first."
+            : "Nothing by these words.",
+        ),
+      );
     this.refresh();
   }
 
   private item(template: TemplateInfo): HTMLElement {
     const { id, name, tags, read_only, has_thumbnail, description, error } = template;
     const picture = has_thumbnail
-      ? element("img", { alt: "", src: address("/api/library/thumbnail", { id, v: String(this.stamp) }), loading: "lazy" })
-      : element("span", { class: "no-picture", "aria-hidden": "true" }, name.slice(0, 1).toUpperCase());
-    const open = element("button", { type: "button", class: "open", title: `open: ${description || name}` }, picture,
-      element("span", { class: "about" }, element("b", {}, name), element("small", {}, error ?? [read_only ? "shipped" : "", ...tags].filter(Boolean).join(" · "))));
+      ? element("img", {
+          alt: "",
+          src: address("/api/library/thumbnail", { id, v: String(this.stamp) }),
+          loading: "lazy",
+        })
+      : element(
+          "span",
+          { class: "no-picture", "aria-hidden": "true" },
+          name.slice(0, 1).toUpperCase(),
+        );
+    const open = element(
+      "button",
+      { type: "button", class: "open", title: `open: ${description || name}` },
+      picture,
+      element(
+        "span",
+        { class: "about" },
+        element("b", {}, name),
+        element(
+          "small",
+          {},
+          error ?? [read_only ? "shipped" : "", ...tags].filter(Boolean).join(" · "),
+        ),
+      ),
+    );
     open.addEventListener("click", () => void this.open(template));
-    const copy = button("Duplicate", `make a copy of ${name}`, () => void this.duplicate(template), "plain");
-    const drop = button("Delete", `delete ${name}`, () => void this.delete(template), "plain danger");
+    const copy = button(
+      "Duplicate",
+      `make a copy of ${name}`,
+      () => void this.duplicate(template),
+      "plain",
+    );
+    const drop = button(
+      "Delete",
+      `delete ${name}`,
+      () => void this.delete(template),
+      "plain danger",
+    );
     drop.disabled = read_only;
     if (read_only) drop.title = "a shipped template is not deleted";
     return element("li", { "data-id": id }, open, element("span", { class: "more" }, copy, drop));
@@ -92,7 +188,8 @@ export class LibraryPanel {
 
   async open({ id, name }: TemplateInfo): Promise<void> {
     const { dirty } = this.store.state;
-    const text = "The changes of this template are not saved. They stay in the undo history until the page is closed.";
+    const text =
+      "Its changes are not saved. They stay in the undo history until the page is closed.";
     if (dirty && !(await confirmed(`Open "${name}"?`, text, "Open"))) return;
     await this.session.load({ template: id });
   }
@@ -101,7 +198,12 @@ export class LibraryPanel {
     if (as) await this.change("/api/duplicate", { id, as }, `Copied as "${as}".`);
   }
   private async delete({ id, name }: TemplateInfo): Promise<void> {
-    const sure = await confirmed(`Delete "${name}"?`, "The file and its thumbnail go. This cannot be undone.", "Delete", "danger");
+    const sure = await confirmed(
+      `Delete "${name}"?`,
+      "The file and its thumbnail go. This cannot be undone.",
+      "Delete",
+      "danger",
+    );
     if (sure) await this.change("/api/delete", { id }, `Deleted "${name}".`);
   }
   private async change(path: string, body: object, said: string): Promise<void> {

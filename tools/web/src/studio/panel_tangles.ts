@@ -10,7 +10,7 @@ import type { Tag, Tangle } from "./protocol";
 import type { Store } from "./store";
 import { kHeatFull } from "./viewport";
 import { check, list, note, section } from "./widgets";
-import { cm, limb, pathOf, signed, words } from "./words";
+import { cm, limb, limbs, pathOf, signed, words } from "./words";
 
 const kBarFull = 1.2; // turns at the end of a bar
 const kPairFull = 0.35;
@@ -20,26 +20,53 @@ const plain = ({ a, b }: Tangle): Tangle => ({ a, b });
 
 export class TanglesPanel {
   readonly element = element("div", { class: "panel" });
-  private readonly found = check("Leave it to the reduction", "the tags are those that Algorithm 1 and its reduction find when the template is used",
-    (on) => this.actions.tangles(on ? [] : this.store.state.queries.tags.map(plain)));
+  private readonly found = check(
+    "Leave it to the reduction",
+    "the tags are those that Algorithm 1 and its reduction find when the template is used",
+    (on) => this.actions.tangles(on ? [] : this.store.state.queries.tags.map(plain)),
+  );
   private readonly tags = element("ul", { class: "items tags" });
-  private readonly none = note("Nothing is tangled yet: no two paths wind round each other by more than half a turn.");
+  private readonly none = note(
+    "Nothing is tangled yet: no two paths wind round each other by more than half a turn.",
+  );
   private readonly literal = note("");
   private readonly warnings = element("ul", { class: "warnings" });
   private readonly noWarnings = note("Nothing to warn of.");
-  private readonly matrix = element("canvas", { class: "matrix", role: "img", "aria-label": "GLI of every segment of a against every segment of b" });
+  private readonly matrix = element("canvas", {
+    class: "matrix",
+    role: "img",
+    "aria-label": "GLI of every segment of a against every segment of b",
+  });
   private readonly pair = element("p", { class: "note pair" });
   private readonly heat: ReturnType<typeof check>;
   private table: ArrayLike<number> = new Float64Array(numSegments * numSegments);
 
-  constructor(private readonly store: Store, private readonly actions: Actions) {
-    this.heat = check("Heat on the bodies (H)", "colour each limb by the sum of |GLI| over the other body's segments (turns)", (heat) => store.set({ heat }));
+  constructor(
+    private readonly store: Store,
+    private readonly actions: Actions,
+  ) {
+    this.heat = check(
+      "Heat on the bodies (H)",
+      "colour each limb by the sum of |GLI| over the other body's segments (turns)",
+      (heat) => store.set({ heat }),
+    );
     const stops = [0, 1, 2, 3, 4].map((k) => cssOf(ramp(heatStops.a, k / 4))).join(",");
-    const legend = element("div", { class: "legend" }, "0", element("i", { style: `background:linear-gradient(90deg,${stops})` }), `${kHeatFull} turns`);
+    const legend = element(
+      "div",
+      { class: "legend" },
+      "0",
+      element("i", { style: `background:linear-gradient(90deg,${stops})` }),
+      `${kHeatFull} turns`,
+    );
     this.element.append(
       section("Tangles to keep", this.found.label, this.none, this.tags, this.literal),
       section("Warnings", this.noWarnings, this.warnings),
-      section("Heat map", element("div", { class: "row" }, this.heat.label, legend), this.matrix, this.pair),
+      section(
+        "Heat map",
+        element("div", { class: "row" }, this.heat.label, legend),
+        this.pair,
+        this.matrix,
+      ),
     );
     this.matrix.addEventListener("mousemove", (event) => this.pointAt(event));
     this.matrix.addEventListener("mouseleave", () => this.store.set({ litPair: null }));
@@ -54,15 +81,28 @@ export class TanglesPanel {
     const { tags, literal_tangles, warnings, overlaps } = state.queries;
     this.found.set(state.tangles.length === 0);
     this.none.hidden = tags.length > 0;
-    if (tags.length !== this.tags.children.length || tags.some((t, k) => this.tags.children[k].getAttribute("data-tag") !== keyOf(t))) {
+    if (
+      tags.length !== this.tags.children.length ||
+      tags.some((t, k) => this.tags.children[k].getAttribute("data-tag") !== keyOf(t))
+    ) {
       this.tags.replaceChildren(...tags.map((tag) => this.tag(tag)));
     }
     tags.forEach((tag, k) => this.write(this.tags.children[k] as HTMLElement, tag));
-    this.literal.textContent = literal_tangles === undefined ? "" : `${literal_tangles} pairs of paths in Algorithm 1's full list.`;
+    this.literal.textContent =
+      literal_tangles === undefined
+        ? ""
+        : `${literal_tangles} pairs of paths in Algorithm 1's full list.`;
     this.noWarnings.hidden = warnings.length > 0;
-    list(this.warnings, warnings, (w) => w, (text) => element("li", {}, text));
+    list(
+      this.warnings,
+      warnings,
+      (w) => w,
+      (text) => element("li", {}, limbs(text)),
+    );
     this.heat.set(ui.heat);
-    this.element.dataset.overlaps = overlaps.map((o) => `${limb(o.limbs[0])} and ${limb(o.limbs[1])}: ${cm(o.depth_m)}`).join("; ");
+    this.element.dataset.overlaps = overlaps
+      .map((o) => `${limb(o.limbs[0])} and ${limb(o.limbs[1])}: ${cm(o.depth_m)}`)
+      .join("; ");
     if (this.element.offsetParent === null || ui.panel !== "tangles") return;
     this.table = gliTable(state.figures.a.nodes.flat(), state.figures.b.nodes.flat());
     this.draw();
@@ -74,14 +114,34 @@ export class TanglesPanel {
       item.dataset.waiting = "true";
       return this.tick(tag, on).then(() => (item.dataset.waiting = "false"));
     });
-    const bar = element("div", { class: "bar", title: "|GLI| (turns); the line stands at 0.5" }, element("i", {}), element("b", {}));
-    const item = element("li", { tabindex: "0", "data-tag": keyOf(tag) },
-      element("div", { class: "tag" }, box.label,
-        element("div", { class: "paths" }, element("span", { class: "figure-a" }, `a ${pathOf(tag.a)}`), element("span", { class: "figure-b" }, `b ${pathOf(tag.b)}`)),
-        element("output", { title: "GLI with its sign (turns)" })),
-      bar, element("small", {}));
-    for (const event of ["mouseenter", "focus"]) item.addEventListener(event, () => this.store.set({ lit: plain(tag) }));
-    for (const event of ["mouseleave", "blur"]) item.addEventListener(event, () => this.store.set({ lit: null }));
+    const bar = element(
+      "div",
+      { class: "bar", title: "|GLI| (turns); the line stands at 0.5" },
+      element("i", {}),
+      element("b", {}),
+    );
+    const item = element(
+      "li",
+      { tabindex: "0", "data-tag": keyOf(tag) },
+      element(
+        "div",
+        { class: "tag" },
+        box.label,
+        element(
+          "div",
+          { class: "paths" },
+          element("span", { class: "figure-a" }, `a ${pathOf(tag.a)}`),
+          element("span", { class: "figure-b" }, `b ${pathOf(tag.b)}`),
+        ),
+        element("output", { title: "GLI with its sign (turns)" }),
+      ),
+      bar,
+      element("small", {}),
+    );
+    for (const event of ["mouseenter", "focus"])
+      item.addEventListener(event, () => this.store.set({ lit: plain(tag) }));
+    for (const event of ["mouseleave", "blur"])
+      item.addEventListener(event, () => this.store.set({ lit: null }));
     return item;
   }
 
@@ -139,8 +199,10 @@ export class TanglesPanel {
   }
   private tellPair(): void {
     const pair = this.store.ui.litPair;
-    this.pair.textContent = pair === null ? "|GLI| of each segment pair; rows: a, columns: b. Point at a cell."
-      : `a ${segment(pair[0])} × b ${segment(pair[1])}: ${signed(this.table[pair[0] * numSegments + pair[1]], 3)}`;
+    this.pair.textContent =
+      pair === null
+        ? "|GLI| of each segment pair; rows: a, columns: b. Point at a cell."
+        : `a ${segment(pair[0])} × b ${segment(pair[1])}: ${signed(this.table[pair[0] * numSegments + pair[1]], 3)}`;
   }
 }
 

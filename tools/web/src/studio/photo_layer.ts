@@ -8,7 +8,8 @@ export class PhotoLayer {
   private source = "";
 
   constructor(
-    private readonly actions: Actions, private readonly store: Store,
+    private readonly actions: Actions,
+    private readonly store: Store,
   ) {
     this.image.hidden = true;
     this.image.addEventListener("load", () => actions.viewport.invalidate());
@@ -24,7 +25,10 @@ export class PhotoLayer {
     const photo = this.actions.photoPreview ?? state.photo;
     this.image.hidden = !photo;
     if (!photo) return;
-    const source = address("/api/photo", { session, v: `${this.store.photoVersion}-${photo.file}` });
+    const source = address("/api/photo", {
+      session,
+      v: `${this.store.photoVersion}-${photo.file}`,
+    });
     if (source !== this.source) {
       this.source = source;
       this.image.src = source;

@@ -22,15 +22,22 @@ function gap(origin: Vector3, direction: Vector3, most: number, a: Vector3, b: V
   let t = denominator > 1e-9 ? (w.dot(v) - uv * w.dot(direction)) / denominator : 0;
   t = Math.min(1, Math.max(0, t));
   const s = Math.min(most, Math.max(0, uv * t - w.dot(direction)));
-  return { distance: origin.clone().addScaledVector(direction, s)
-    .distanceTo(a.clone().addScaledVector(v, t)), along: s };
+  return {
+    distance: origin
+      .clone()
+      .addScaledVector(direction, s)
+      .distanceTo(a.clone().addScaledVector(v, t)),
+    along: s,
+  };
 }
 
 // Whether a limb that the node is no end of stands between the main camera and the node.
 export function isBehind(store: Store, view: View, pick: Pick): boolean {
   const place = new Vector3(...store.place(pick));
-  const origin = view.name === "main" ? view.camera.position.clone()
-    : place.clone().addScaledVector(view.towardsViewer(), 5);
+  const origin =
+    view.name === "main"
+      ? view.camera.position.clone()
+      : place.clone().addScaledVector(view.towardsViewer(), 5);
   const direction = place.clone().sub(origin);
   const most = direction.length();
   direction.normalize();
@@ -42,7 +49,12 @@ export function isBehind(store: Store, view: View, pick: Pick): boolean {
       const { parent, radius_m } = nodes[n];
       if (figure === pick.figure && (n === pick.node || parent === pick.node)) continue;
       const { distance, along } = gap(
-        origin, direction, most, new Vector3(...at[parent]), new Vector3(...at[n]));
+        origin,
+        direction,
+        most,
+        new Vector3(...at[parent]),
+        new Vector3(...at[n]),
+      );
       if (distance < 0.9 * radius_m && along < most - radius_m) return true;
     }
   }
@@ -61,7 +73,9 @@ export function pickNode(store: Store, view: View, x: number, y: number): Pick |
       const distance = Math.hypot(at.x - x, at.y - y);
       if (distance > kReach) continue;
       const pick = { figure, node };
-      const cost = distance + (isMinor(store.nodeName(pick)) ? 2 : 0) +
+      const cost =
+        distance +
+        (isMinor(store.nodeName(pick)) ? 2 : 0) +
         (isBehind(store, view, pick) ? kBehind : 0);
       if (cost < least) [best, least] = [pick, cost];
     }

@@ -29,8 +29,11 @@ export class Pointer {
   private press: Press | null = null;
 
   constructor(
-    viewport: Viewport, private readonly store: Store,
-    private readonly sender: Sender, private readonly gizmo: Gizmo, private readonly actions: Actions,
+    viewport: Viewport,
+    private readonly store: Store,
+    private readonly sender: Sender,
+    private readonly gizmo: Gizmo,
+    private readonly actions: Actions,
   ) {
     for (const view of viewport.views) {
       const { element } = view;
@@ -53,8 +56,16 @@ export class Pointer {
     if (view.name === "main" && this.gizmo.hovered) return;
     const pick = pickNode(this.store, view, event.clientX, event.clientY);
     this.press = {
-      view, pick, pointer: event.pointerId, x: event.clientX, y: event.clientY, moved: false,
-      gesture: 0, offset: new Vector3(), start: new Vector3(), op: null,
+      view,
+      pick,
+      pointer: event.pointerId,
+      x: event.clientX,
+      y: event.clientY,
+      moved: false,
+      gesture: 0,
+      offset: new Vector3(),
+      start: new Vector3(),
+      op: null,
     };
     const { tool } = this.store.ui;
     if (tool === "photo-move" && view.name === "main") {
@@ -116,7 +127,10 @@ export class Pointer {
       const ray = press.view.ray(event.clientX, event.clientY);
       const [origin, direction] = [ray.origin.toArray(), ray.direction.toArray()];
       press.op = { op: "drag_ray", figure, node, origin, direction, gesture: press.gesture };
-      store.set({ dragging: true, dragTarget: this.onPlane(press.view, press.start, event)?.toArray() as Vec });
+      store.set({
+        dragging: true,
+        dragTarget: this.onPlane(press.view, press.start, event)?.toArray() as Vec,
+      });
     } else {
       const target = this.targetOf(press, event);
       if (!target) return;
@@ -169,7 +183,7 @@ export class Pointer {
   private floorPoint(view: View, event: PointerEvent): Vec | null {
     const floor = new Plane(new Vector3(0, 1, 0), 0);
     const at = view.ray(event.clientX, event.clientY).intersectPlane(floor, new Vector3());
-    return at ? at.toArray() as Vec : null;
+    return at ? (at.toArray() as Vec) : null;
   }
 
   // Escape: the drag is taken back. True where there was one.

@@ -12,10 +12,10 @@ export interface Limits {
   axis?: Vec;
   twist?: [number, number];
   swing_centre?: Vec; // a direction
-  swing?: number; // furthest from the centre
+  swing_max?: number; // furthest from the centre
   hinge_axis?: Vec;
   bend?: [number, number];
-  play?: number; // out of the plane of bending
+  hinge_play?: number; // out of the plane of bending
 }
 
 export interface FigureBody {
@@ -103,7 +103,15 @@ export interface Camera {
   target: Vec;
   fov_deg: number;
 }
-export const optionNames = ["holds", "limits", "penetration", "floor", "tangles", "feet", "root"] as const;
+export const optionNames = [
+  "holds",
+  "limits",
+  "penetration",
+  "floor",
+  "tangles",
+  "feet",
+  "root",
+] as const;
 export type OptionName = (typeof optionNames)[number];
 
 export interface State {

@@ -25,9 +25,14 @@ export class Session {
   private timer = 0;
 
   constructor(
-    private readonly store: Store, private readonly sender: Sender, private readonly viewport: Viewport,
+    private readonly store: Store,
+    private readonly sender: Sender,
+    private readonly viewport: Viewport,
   ) {
-    sender.connect((error) => this.mend(error), () => this.keepDraft());
+    sender.connect(
+      (error) => this.mend(error),
+      () => this.keepDraft(),
+    );
   }
 
   // Ours from before a reload, else a new one.
@@ -92,7 +97,9 @@ export class Session {
       const yaml = await getText("/api/yaml", { session });
       const draft: Draft = { yaml, name: state.name, time: Date.now() };
       localStorage.setItem(kDraft + session, JSON.stringify(draft));
-    } catch { /* a posture that cannot be written now, or no room: the session itself still holds it */ }
+    } catch {
+      /* a posture that cannot be written now, or no room: the session itself still holds it */
+    }
   }
 
   // What a request could not: another session where ours is gone, patience where nobody answers.
@@ -107,17 +114,20 @@ export class Session {
     this.store.connected = false;
     this.store.changed();
     const again = window.setInterval(() => {
-      void get<Reply>("/api/state", { session: this.store.session }).then((reply) => {
-        clearInterval(again);
-        this.store.connected = true;
-        this.store.take(reply);
-        this.store.say("The server answers again.", "good");
-      }, (failure: ServerError) => {
-        if (failure.status !== 404) return;
-        clearInterval(again);
-        this.store.connected = true;
-        void this.mend(failure);
-      });
+      void get<Reply>("/api/state", { session: this.store.session }).then(
+        (reply) => {
+          clearInterval(again);
+          this.store.connected = true;
+          this.store.take(reply);
+          this.store.say("The server answers again.", "good");
+        },
+        (failure: ServerError) => {
+          if (failure.status !== 404) return;
+          clearInterval(again);
+          this.store.connected = true;
+          void this.mend(failure);
+        },
+      );
     }, 2000);
   }
 
@@ -169,7 +179,8 @@ export class Session {
       this.store.say(refused.message);
       return this.saveAs();
     }
-    const title = refused.reason === "changed" ? "The file has changed meanwhile" : "Replace the template?";
+    const title =
+      refused.reason === "changed" ? "The file has changed meanwhile" : "Replace the template?";
     if (await confirmed(title, refused.message, "Replace it", "danger")) {
       await this.write({ ...how, overwrite: true });
     }

@@ -4,13 +4,22 @@ import { byId, element } from "../shared/dom";
 import type { PanelName, Store } from "./store";
 
 const kTitles: Record<PanelName, string> = {
-  figures: "Figures", holds: "Holds", tangles: "Tangles", photo: "Photo", library: "Library", try: "Try it",
+  figures: "Figures",
+  holds: "Holds",
+  tangles: "Tangles",
+  photo: "Photo",
+  library: "Library",
+  try: "Try it",
 };
 
 export function fillSide(store: Store, panels: Record<PanelName, HTMLElement>): void {
   const names = Object.keys(kTitles) as PanelName[];
   const tabs = names.map((name) => {
-    const tab = element("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": `panel-${name}` }, kTitles[name]);
+    const tab = element(
+      "button",
+      { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": `panel-${name}` },
+      kTitles[name],
+    );
     tab.addEventListener("click", () => store.set({ panel: name }));
     tab.addEventListener("keydown", (event) => {
       const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
@@ -26,10 +35,16 @@ export function fillSide(store: Store, panels: Record<PanelName, HTMLElement>): 
     panel.setAttribute("aria-labelledby", tab.id);
     return tab;
   });
-  byId("side").append(element("div", { class: "tabs", role: "tablist" }, ...tabs), ...names.map((name) => panels[name]));
+  byId("side").append(
+    element("div", { class: "tabs", role: "tablist" }, ...tabs),
+    ...names.map((name) => panels[name]),
+  );
   store.onChange(() => {
     const { state } = store;
-    const warn = { tangles: state.queries.warnings.length > 0, holds: state.holds.some((h) => h.error_m > 0.01) };
+    const warn = {
+      tangles: state.queries.warnings.length > 0,
+      holds: state.holds.some((h) => h.error_m > 0.01),
+    };
     names.forEach((name, k) => {
       const open = store.ui.panel === name;
       tabs[k].setAttribute("aria-selected", String(open));

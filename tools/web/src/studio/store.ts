@@ -22,6 +22,7 @@ export interface Ui {
   turning: boolean; // the move tool turns instead
   shown: Record<FigureName, Shown>;
   heat: boolean;
+  solid: number; // opacity of the figures over a photo
   sideViews: boolean;
   lit: Tangle | null; // paths lit on the bodies
   litPair: [number, number] | null; // segments of a and b
@@ -49,10 +50,26 @@ export class Store {
   connected = true;
   photoVersion = 0; // so that the browser asks for the picture anew
   ui: Ui = {
-    tool: "pose", selected: null, figure: "a", joint: 0, hovered: null, worldAxes: false,
-    turning: false, shown: { a: "shown", b: "shown" }, heat: false, sideViews: true, lit: null,
-    litPair: null, holdFrom: null, holdEdited: null, litHold: null, panel: "figures", locked: false,
-    dragTarget: null, dragging: false,
+    tool: "pose",
+    selected: null,
+    figure: "a",
+    joint: 0,
+    hovered: null,
+    worldAxes: false,
+    turning: false,
+    shown: { a: "shown", b: "shown" },
+    heat: false,
+    solid: 0.85,
+    sideViews: true,
+    lit: null,
+    litPair: null,
+    holdFrom: null,
+    holdEdited: null,
+    litHold: null,
+    panel: "figures",
+    locked: false,
+    dragTarget: null,
+    dragging: false,
   };
   private readonly listeners: (() => void)[] = [];
   private scheduled = false;

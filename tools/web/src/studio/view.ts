@@ -1,7 +1,13 @@
 // One view of the scene: the main one in perspective, or a side view to judge depth by.
 
 import {
-  MOUSE, OrthographicCamera, PerspectiveCamera, Raycaster, Vector2, Vector3, type Camera,
+  MOUSE,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Raycaster,
+  Vector2,
+  Vector3,
+  type Camera,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { element } from "../shared/dom";
@@ -9,8 +15,12 @@ import type { Vec } from "./protocol";
 
 export type ViewName = "main" | "front" | "side" | "top";
 export const directions = {
-  "three-quarter": [0.72, 0.3, 1], front: [0, 0, 1], back: [0, 0, -1], side: [1, 0, 0],
-  "other side": [-1, 0, 0], top: [0, 1, 0],
+  "three-quarter": [0.72, 0.3, 1],
+  front: [0, 0, 1],
+  back: [0, 0, -1],
+  side: [1, 0, 0],
+  "other side": [-1, 0, 0],
+  top: [0, 1, 0],
 } as const;
 export type Direction = keyof typeof directions;
 const kDistance = 4.75; // m
@@ -21,12 +31,18 @@ export class View {
   readonly camera: PerspectiveCamera | OrthographicCamera;
   readonly controls: OrbitControls;
 
-  constructor(readonly name: ViewName, parent: HTMLElement, changed: () => void) {
+  constructor(
+    readonly name: ViewName,
+    parent: HTMLElement,
+    changed: () => void,
+  ) {
     const label = name === "main" ? [] : [element("span", { class: "view-name" }, name)];
     this.element = element("div", { class: `view ${name}`, "data-view": name }, ...label);
     parent.append(this.element);
-    this.camera = name === "main"
-      ? new PerspectiveCamera(30, 1, 0.05, 60) : new OrthographicCamera(-1, 1, 1, -1, 0.05, 60);
+    this.camera =
+      name === "main"
+        ? new PerspectiveCamera(30, 1, 0.05, 60)
+        : new OrthographicCamera(-1, 1, 1, -1, 0.05, 60);
     this.controls = new OrbitControls(this.camera, this.element);
     this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.ROTATE, RIGHT: MOUSE.PAN };
     if (name !== "main") {
@@ -79,7 +95,9 @@ export class View {
 
   // Where a point of the world is on the page (CSS px); null behind the camera.
   project(point: Vector3 | Vec): { x: number; y: number } | null {
-    const p = (Array.isArray(point) ? new Vector3(...point) : point.clone()).project(this.camera as Camera);
+    const p = (Array.isArray(point) ? new Vector3(...point) : point.clone()).project(
+      this.camera as Camera,
+    );
     if (p.z > 1 || p.z < -1) return null;
     const box = this.element.getBoundingClientRect();
     return { x: box.left + ((p.x + 1) / 2) * box.width, y: box.top + ((1 - p.y) / 2) * box.height };
@@ -89,8 +107,10 @@ export class View {
   ray(x: number, y: number): Raycaster["ray"] {
     const box = this.element.getBoundingClientRect();
     const caster = new Raycaster();
-    caster.setFromCamera(new Vector2(
-      (2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height), this.camera);
+    caster.setFromCamera(
+      new Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height),
+      this.camera,
+    );
     return caster.ray;
   }
 

@@ -1,7 +1,7 @@
 // The stage: one canvas behind the main view and three side views, and one over them for handles.
 // Draws only when something changed.
 
-import { Scene, Vector3, WebGLRenderer, type Fog } from "three";
+import { Scene, Vector3, WebGLRenderer, type Fog, type LineBasicMaterial } from "three";
 import { gliTable, heat } from "../shared/gli";
 import { figureColour, heatStops, mix, ramp, rgbOf, type Rgb } from "../shared/colours";
 import { element } from "../shared/dom";
@@ -34,7 +34,10 @@ export class Viewport {
   private readonly slow: boolean;
 
   // Throws where the browser has no WebGL.
-  constructor(private readonly container: HTMLElement, private readonly store: Store) {
+  constructor(
+    private readonly container: HTMLElement,
+    private readonly store: Store,
+  ) {
     const context = this.canvas.getContext("webgl2", { alpha: true, antialias: false });
     if (!context) throw new Error("no WebGL");
     this.slow = drawsInSoftware(context);
@@ -49,11 +52,14 @@ export class Viewport {
     const redraw = () => this.invalidate();
     this.main = new View("main", views, redraw);
     views.append(column);
-    this.views = [this.main, ...(["front", "side", "top"] as ViewName[]).map(
-      (name) => new View(name, column, redraw))];
+    this.views = [
+      this.main,
+      ...(["front", "side", "top"] as ViewName[]).map((name) => new View(name, column, redraw)),
+    ];
     container.append(views, this.overlay);
     new ResizeObserver(redraw).observe(this.main.element);
     this.surroundings.floor.visible = false; // the stage has its colour
+    (this.surroundings.grid.material as LineBasicMaterial).transparent = true;
     this.dress();
     onThemeChange(() => {
       this.dress();
@@ -90,7 +96,6 @@ export class Viewport {
       mesh.resize(body[figure]);
       mesh.pose(state.figures[figure]);
       mesh.group.visible = ui.shown[figure] !== "hidden";
-      mesh.ghost(ui.shown[figure] === "ghost");
     }
     this.paint();
     const column = this.container.querySelector<HTMLElement>(".column")!;
@@ -109,7 +114,9 @@ export class Viewport {
       const signs = path ? pathSigns(findNode(path[0]), findNode(path[1])) : null;
       const colours: Rgb[] = [];
       for (let s = 0; s < numSegments; ++s) {
-        let colour = values ? ramp(heatStops[figure], values[f][s] / kHeatFull) : rgbOf(figureColour[figure]);
+        let colour = values
+          ? ramp(heatStops[figure], values[f][s] / kHeatFull)
+          : rgbOf(figureColour[figure]);
         const off = signs ? signs[s] === 0 : ui.litPair !== null && ui.litPair[f] !== s;
         if (off) colour = mix(colour, dim, 0.85);
         colours.push(colour);
@@ -152,14 +159,21 @@ export class Viewport {
     const frame = this.container.getBoundingClientRect();
     const ratio = Math.min(devicePixelRatio || 1, 2);
     const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
-    if (this.overlay.width !== w || this.overlay.height !== h) [this.overlay.width, this.overlay.height] = [w, h];
+    if (this.overlay.width !== w || this.overlay.height !== h)
+      [this.overlay.width, this.overlay.height] = [w, h];
     const context = this.overlay.getContext("2d", { willReadFrequently: this.slow })!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
     for (const view of this.views) {
       const box = view.element.getBoundingClientRect();
       if (box.width === 0 || box.height === 0) continue;
-      this.render(view, box.left - frame.left, height - (box.bottom - frame.top), box.width, box.height);
+      this.render(
+        view,
+        box.left - frame.left,
+        height - (box.bottom - frame.top),
+        box.width,
+        box.height,
+      );
       context.save();
       context.beginPath();
       context.rect(box.left - frame.left, box.top - frame.top, box.width, box.height);
@@ -175,10 +189,18 @@ export class Viewport {
     view.fit(width, height);
     const main = view === this.main;
     const picture = main && !this.photo.hidden;
-    this.surroundings.grid.visible = view.name === "main" || view.name === "top";
+    const { grid } = this.surroundings;
+    grid.visible = view.name === "main" || view.name === "top";
+    const lines = grid.material as LineBasicMaterial;
+    lines.opacity = picture ? 0.3 : 1;
+    for (const figure of figureNames) {
+      const ghost = this.store.ui.shown[figure] === "ghost";
+      this.meshes[figure]?.appear(picture ? this.store.ui.solid : 1, ghost);
+      this.meshes[figure]?.castShadow(!picture && !ghost);
+    }
     const distance = view.camera.position.distanceTo(view.controls.target);
     const fog = scene.fog as Fog;
-    [fog.near, fog.far] = main && !picture ? [distance + 1.5, distance + 9] : [50, 60];
+    [fog.near, fog.far] = main ? [distance + 1.5, distance + 9] : [50, 60];
     const shown = this.onlyInMain.map((thing) => thing.visible);
     if (!main) for (const thing of this.onlyInMain) thing.visible = false;
     renderer.setViewport(x, y, width, height);
@@ -203,7 +225,10 @@ export class Viewport {
     const scale = this.canvas.width / frame.width;
     const part = Math.min(box.width / width, box.height / height);
     const [w, h] = [part * width, part * height];
-    const [x, y] = [box.left - frame.left + (box.width - w) / 2, box.top - frame.top + (box.height - h) / 2];
+    const [x, y] = [
+      box.left - frame.left + (box.width - w) / 2,
+      box.top - frame.top + (box.height - h) / 2,
+    ];
     context.fillStyle = themeColour("--stage");
     context.fillRect(0, 0, width, height);
     context.imageSmoothingQuality = "high";

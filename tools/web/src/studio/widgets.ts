@@ -4,9 +4,7 @@ import { element } from "../shared/dom";
 
 type Child = Node | string;
 
-export function button(
-  label: Child, title: string, act: () => void, kind = "",
-): HTMLButtonElement {
+export function button(label: Child, title: string, act: () => void, kind = ""): HTMLButtonElement {
   const made = element("button", { type: "button", title, class: kind }, label);
   if (typeof label !== "string" || label.length < 3) made.setAttribute("aria-label", title);
   made.addEventListener("click", act);
@@ -39,7 +37,11 @@ export interface Select {
   element: HTMLSelectElement;
   set(value: string, options?: [string, string][]): void;
 }
-export function select(title: string, options: [string, string][], act: (value: string) => void): Select {
+export function select(
+  title: string,
+  options: [string, string][],
+  act: (value: string) => void,
+): Select {
   const made = element("select", { title, "aria-label": title });
   let known = "";
   const fill = (entries: [string, string][]) => {
@@ -80,12 +82,20 @@ export interface NumberField {
 export function number(options: NumberOptions): NumberField {
   const { step, digits, min = -Infinity, max = Infinity, commit, live, release } = options;
   const input = element("input", {
-    type: "text", inputmode: "decimal", title: options.title, "aria-label": options.title,
-    autocomplete: "off", spellcheck: "false",
+    type: "text",
+    inputmode: "decimal",
+    title: options.title,
+    "aria-label": options.title,
+    autocomplete: "off",
+    spellcheck: "false",
   });
-  const label = element("span", { class: "scrub-label", title: `${options.title}. Drag to change.` }, options.label);
+  const label = element(
+    "span",
+    { class: "scrub-label", title: `${options.title}. Drag to change.` },
+    options.label,
+  );
   const unit = element("span", { class: "unit" }, options.unit ?? "");
-  const box = element("span", { class: "number" }, label, input, unit);
+  const box = element("span", { class: "number-field" }, label, input, unit);
   let shown = 0;
   let scrubbing = false;
   const clamp = (value: number) => Math.min(max, Math.max(min, value));
@@ -142,11 +152,22 @@ export function number(options: NumberOptions): NumberField {
 
 // A slider with its number; `live` while it moves.
 export function slider(
-  text: string, title: string, min: number, max: number, step: number, show: (v: number) => string,
-  live: (value: number) => void, commit: (value: number) => void,
+  text: string,
+  title: string,
+  min: number,
+  max: number,
+  step: number,
+  show: (v: number) => string,
+  live: (value: number) => void,
+  commit: (value: number) => void,
 ): { element: HTMLElement; set(value: number): void } {
   const input = element("input", {
-    type: "range", min: String(min), max: String(max), step: String(step), title, "aria-label": title,
+    type: "range",
+    min: String(min),
+    max: String(max),
+    step: String(step),
+    title,
+    "aria-label": title,
   });
   const output = element("output", {});
   const tell = () => (output.textContent = show(Number(input.value)));
@@ -171,14 +192,23 @@ export function slider(
 }
 
 export function section(title: string, ...children: Child[]): HTMLDetailsElement {
-  return element("details", { class: "section", open: "" }, element("summary", {}, title),
-    element("div", { class: "content" }, ...children));
+  return element(
+    "details",
+    { class: "section", open: "" },
+    element("summary", {}, title),
+    element("div", { class: "content" }, ...children),
+  );
 }
 export const row = (...children: Child[]) => element("div", { class: "row" }, ...children);
 export const note = (text: string) => element("p", { class: "note" }, text);
 
 // Replaces what is inside only where it changed, so that focus and hover stay.
-export function list<T>(holder: HTMLElement, items: T[], key: (item: T) => unknown, make: (item: T, k: number) => HTMLElement): void {
+export function list<T>(
+  holder: HTMLElement,
+  items: T[],
+  key: (item: T) => unknown,
+  make: (item: T, k: number) => HTMLElement,
+): void {
   const wanted = JSON.stringify(items.map(key));
   if (holder.dataset.items === wanted) return;
   holder.dataset.items = wanted;

@@ -10,6 +10,8 @@ export function limb(name: string): string {
   const [figure, node] = name.split("/");
   return node ? `${figure}'s ${words(node)}` : words(name);
 }
+// The same wherever it stands in a sentence.
+export const limbs = (text: string) => text.replace(/\b[ab]\/[a-z_]+/g, limb);
 export const nodeOf = (figure: FigureName, node: string) => `${figure}'s ${words(node)}`;
 export const endOf = (end: HoldEnd) =>
   end.figure === "world" ? "the world" : nodeOf(end.figure, end.node ?? "");
