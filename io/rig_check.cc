@@ -80,13 +80,28 @@ class FigureCheck {
     }
   }
 
+  // Where both knees bend to, which is forwards whatever the feet do; zero where legs are straight.
+  Vec3 KneesDirection(const PosedRig& pose) const {
+    constexpr double kBent = 0.15;  // off the line from hip to ankle, share of the leg
+    Vec3 sum = Vec3::Zero();
+    for (const Side* side : {&figure_.points.left, &figure_.points.right}) {
+      const Vec3 hip = At(pose, side->hip), knee = At(pose, side->knee);
+      const Vec3 ankle = At(pose, side->ankle);
+      const Vec3 off = knee - (hip + ankle) / 2;
+      if (off.norm() > kBent * ((knee - hip).norm() + (ankle - knee).norm())) sum += off;
+    }
+    return sum;
+  }
+
   // Left must be left of where the feet point, else the file may be mirrored or its names
   // exchanged.
   void CheckMirroring() {
     int right_way = 0, wrong_way = 0;
     for (const PosedRig& pose : figure_.poses) {
       const Vec3 across = At(pose, figure_.points.left.hip) - At(pose, figure_.points.right.hip);
-      const double left = UpAxis(*facts_).cross(FeetDirection(pose, figure_.points)).dot(across);
+      const Vec3 feet = FeetDirection(pose, figure_.points);
+      if (feet.dot(KneesDirection(pose)) < 0) continue;  // legs drawn up, heels to the front
+      const double left = UpAxis(*facts_).cross(feet).dot(across);
       if (left > 0) ++right_way;
       if (left < 0) ++wrong_way;
     }

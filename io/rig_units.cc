@@ -51,6 +51,16 @@ double GuessUnit(double height, const std::string& file) {
   return best->metres;
 }
 
+// The rig as its offsets draw it: nothing turned.
+RigFrame ZeroFrame(const Rig& rig) {
+  RigFrame frame;
+  for (const RigJoint& joint : rig.joints) {
+    frame.translation.push_back(joint.offset);
+    frame.rotation.push_back(Quat::Identity());
+  }
+  return frame;
+}
+
 }  // namespace
 
 void FindUnit(double height, const RecogniseOptions& options, const std::string& file,
@@ -81,14 +91,22 @@ void FindUp(const Figure& figure, const RecogniseOptions& options, const std::st
   if (options.up && *options.up != 'y' && *options.up != 'z') {
     throw InputError(file + ": the up axis must be y or z");
   }
-  Vec3 sum = Vec3::Zero();
-  for (const PosedRig& pose : figure.poses) {
-    sum += At(pose, figure.points.neck) - MidAnkle(pose, figure.points);
+  constexpr double kStands = 0.7;  // cosine
+  const auto stature = [&](const PosedRig& pose) -> Vec3 {
+    return At(pose, figure.points.neck) - MidAnkle(pose, figure.points);
+  };
+  const auto along = [](const Vec3& v, char up) { return up == 'y' ? v.y() : v.z(); };
+  Vec3 mean = Vec3::Zero();
+  for (const PosedRig& pose : figure.poses) mean += stature(pose);
+  facts->up = mean.y() >= mean.z() ? 'y' : 'z';
+  if (along(mean, facts->up) < kStands * mean.norm()) {  // who lies tells by how he is drawn
+    const Vec3 drawn = stature(PoseRig(*figure.rig, ZeroFrame(*figure.rig)));
+    for (const char up : {'y', 'z'}) {
+      if (along(drawn, up) > kStands * drawn.norm()) facts->up = up;
+    }
   }
-  const Vec3 mean = sum / static_cast<double>(figure.poses.size());
-  facts->up = options.up.value_or(mean.y() >= mean.z() ? 'y' : 'z');
-  const double along = facts->up == 'y' ? mean.y() : mean.z();
-  if (along < 0.7 * mean.norm()) {
+  facts->up = options.up.value_or(facts->up);
+  if (along(mean, facts->up) < kStands * mean.norm()) {
     facts->notes.push_back(fmt::format(
         "the figure seldom stands along +{}: if that is not up, give the axis with --up",
         facts->up));

@@ -16,7 +16,10 @@ constexpr double kPassThrough = 0.5;  // turns of one segment pair (docs/metrics
 constexpr double kLeastGain = 1e-4;   // m of all drags together: less is no progress
 constexpr double kLeastLead = 0.01;   // m
 constexpr double kReached = 0.01;     // m
-constexpr int kIterationsLed = 3;     // the led target moves on
+// Elbows and knees of captured clips may bend sideways, as nobody knows their rigs' hinges; here
+// the hinges are the body's own.
+constexpr double kHingePlay = 10 * kDegree;
+constexpr int kIterationsLed = 3;  // the led target moves on
 constexpr int kIterationsPerSolve = 20;
 
 using Poses = std::array<Pose, 2>;
@@ -100,7 +103,12 @@ Scene SceneOf(const PoseTask& task) {
   scene.body = task.body;
   scene.holds = task.holds;
   scene.tangles = task.tangles;
-  for (int f = 0; f < 2; ++f) scene.source[f].frames = {task.before[f]};
+  for (int f = 0; f < 2; ++f) {
+    scene.source[f].frames = {task.before[f]};
+    for (Link& link : scene.body[f].links) {
+      link.limit.hinge_play = std::min(link.limit.hinge_play, kHingePlay);
+    }
+  }
   return scene;
 }
 
@@ -131,6 +139,11 @@ PoseSettings DefaultPoseSettings() {
   PoseSettings pose;
   Weights& w = pose.settings.weights;
   w.pose_tracking = 0.5;
+  // Hands and feet go where the limb takes them: in a capture their joints are cheap to change, but
+  // a dragged wrist should not bend before the elbow does.
+  JointWeights& joint = pose.settings.joint_weights;
+  joint.wrist = joint.clavicle = 1.5;
+  joint.ankle = 1;
   w.root_tracking = 3;
   w.hold = w.penetration = w.self_penetration = w.ground = 300;
   w.joint_limit = 100;

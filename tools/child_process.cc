@@ -53,19 +53,34 @@ class SpawnSettings {
   posix_spawnattr_t attributes_;
 };
 
+std::vector<char*> Argv(const std::vector<std::string>& words) {
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  return argv;
+}
+
 }  // namespace
+
+bool Launch(const std::vector<std::string>& words) {
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  pid_t pid;
+  const SpawnSettings settings(nowhere);
+  const int error = posix_spawnp(&pid, words[0].c_str(), settings.files(), settings.attributes(),
+                                 Argv(words).data(), environ);
+  close(nowhere);
+  return error == 0;
+}
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
   output_ = ends[0];
-  std::string name = "retarget";
-  std::vector<char*> argv = {name.data()};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
+  std::vector<std::string> words = arguments;
+  words.insert(words.begin(), "retarget");
   const SpawnSettings settings(ends[1]);
   const int error = posix_spawn(&pid_, "/proc/self/exe", settings.files(), settings.attributes(),
-                                argv.data(), environ);
+                                Argv(words).data(), environ);
   close(ends[1]);
   if (error != 0) {
     close(output_);

@@ -31,4 +31,8 @@ class ChildProcess {
   std::string unread_;
 };
 
+// Starts another program and leaves it alone; its output goes nowhere. False where it cannot be
+// started.
+bool Launch(const std::vector<std::string>& words);
+
 }  // namespace retarget

@@ -31,6 +31,7 @@ struct RetargetOptions {
   int threads = -1;  // -1: as configured
   std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines
   bool json = false, force = false;
+  bool quiet = false;  // says nothing of the result
 };
 int RunRetarget(const RetargetOptions& options);
 
@@ -41,6 +42,8 @@ int RunVerify(const std::string& folder, bool json);
 int RunCompare(const std::vector<std::string>& folders, bool json);
 int RunTangles(const std::string& path, bool json);
 int RunMap(const ClipOptions& clip, bool json, bool yaml);
+// The clip with left and right exchanged.
+int RunMirror(const ClipOptions& options, const std::string& out, bool force);
 // What is in a motion or character file of any format.
 int RunInspect(const ClipOptions& clip, bool json);
 int RunConfig(const std::string& config_path, const std::vector<std::string>& set);
@@ -67,6 +70,16 @@ struct PoseCommandOptions {
   bool json = false, force = false;
 };
 int RunPose(const PoseCommandOptions& options);
+// Runs every hold of the folders (template.yaml, clips a and b) with default settings into a folder
+// each, and writes an index page. The worst exit code of all.
+struct GalleryOptions {
+  std::vector<std::string> holds;  // folders of holds, or holds
+  std::string out = "gallery", config_path;
+  std::vector<std::string> set;
+  int threads = -1;
+  bool force = false;
+};
+int RunGallery(const GalleryOptions& options);
 
 // `retarget studio`: serves the posing page until it is interrupted.
 struct StudioOptions {
@@ -78,7 +91,8 @@ struct StudioOptions {
 };
 int RunStudio(const StudioOptions& options);
 
-int RunRender(const std::string& folder, const std::string& out, bool force);
+// Of a run's folder, or of a template's file.
+int RunRender(const std::string& path, const std::string& out, bool force);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.
 void CatchInterrupts();

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 
 #include "io/recognise.h"
@@ -70,6 +71,7 @@ struct CommandLine {
   RetargetOptions retarget;
   FromClipsOptions from_clips;
   PoseCommandOptions pose;
+  GalleryOptions gallery;
   StudioOptions studio;
   ClipOptions map_clip;
   std::string folder, file, config, check, picture;
@@ -143,6 +145,22 @@ struct CommandLine {
     compare->add_flag("--json", json);
     compare->callback([this] { code = RunCompare(folders, json); });
 
+    CLI::App* holds = app->add_subcommand("gallery", "run holds, and write a page that shows them");
+    holds
+        ->add_option("holds", gallery.holds,
+                     "folders with template.yaml, a.bvh and b.bvh, or folders of such")
+        ->default_str("data/holds");
+    holds->add_option("--out", gallery.out, "folder for the page and the runs")
+        ->capture_default_str();
+    holds->add_option("--config", gallery.config_path, "weights and settings (YAML)");
+    holds->add_option("--set", gallery.set, "one setting (repeatable)");
+    holds->add_option("--threads", gallery.threads, "0: all cores")->check(CLI::Range(0, 256));
+    holds->add_flag("--force", gallery.force, "overwrite files that no earlier run wrote");
+    holds->callback([this] {
+      if (gallery.holds.empty()) gallery.holds = {"data/holds"};
+      code = RunGallery(gallery);
+    });
+
     CLI::App* tangles =
         app->add_subcommand("tangles", "what is tangled in a template or in node positions");
     tangles->add_option("file", file, "template (YAML) or positions (JSON)")->required();
@@ -160,6 +178,14 @@ struct CommandLine {
       code = RunMap(map_clip, json, yaml);
     });
 
+    CLI::App* mirror = app->add_subcommand("mirror", "a clip with left and right exchanged");
+    mirror->add_option("file", map_clip.path, "clip: BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
+        ->required();
+    mirror->add_option("--out", picture, "file to write, in the clip's own format")->required();
+    mirror->add_flag("--force", force, "overwrite the file");
+    AddClipOptions(mirror, &map_clip, "", false);
+    mirror->callback([this] { code = RunMirror(map_clip, picture, force); });
+
     CLI::App* inspect = app->add_subcommand("inspect", "what is in a motion or character file");
     inspect->add_option("file", map_clip.path, "BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
         ->required();
@@ -175,13 +201,19 @@ struct CommandLine {
     settings->add_option("--set", set, "change one setting");
     settings->callback([this] { code = RunConfig(config, set); });
 
-    CLI::App* render = app->add_subcommand("render", "a picture of a run: source above result");
-    render->add_option("folder", folder, "what --out was")->required();
-    render->add_option("--out", picture, "PNG file (default: scene.png in the folder)");
+    CLI::App* render =
+        app->add_subcommand("render", "a picture of a run (source above result) or of a template");
+    render->add_option("path", folder, "what --out was, or a template (YAML)")->required();
+    render->add_option("--out", picture,
+                       "PNG file (default: scene.png in the folder; beside the template)");
     render->add_flag("--force", force, "overwrite the file");
     render->callback([this] {
-      code = RunRender(folder, picture.empty() ? folder + "/scene.png" : picture,
-                       force || picture.empty());
+      const bool run = std::filesystem::is_directory(folder);
+      const std::string usual =
+          run ? folder + "/scene.png"
+              : std::filesystem::path(folder).replace_extension(".png").string();
+      code =
+          RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
     });
   }
 

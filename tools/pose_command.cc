@@ -65,6 +65,19 @@ void PrintTable(const PoseSession& session) {
   }
 }
 
+// Where the nodes are (m), by figure and name: what drags are given against.
+Json NodesJson(const TemplatePosture& posture) {
+  Json out;
+  const std::array<PosedBody, 2> posed = PosedFigures(posture);
+  for (int f = 0; f < 2; ++f) {
+    for (int n = 0; n < posture.body[f].num_nodes(); ++n) {
+      const Vec3& p = posed[f].node[n];
+      out[kFigure[f]][posture.body[f].nodes[n].name] = {p.x(), p.y(), p.z()};
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 int RunPose(const PoseCommandOptions& options) {
@@ -93,6 +106,7 @@ int RunPose(const PoseCommandOptions& options) {
   if (options.json) {
     Json out = QueriesJson(session.posture());
     out["solves"] = solves;
+    out["nodes"] = NodesJson(session.posture());
     fmt::print("{}\n", out.dump(1));
   } else {
     PrintTable(session);

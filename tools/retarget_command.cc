@@ -40,8 +40,8 @@ Progress ProgressJson() {
 }
 
 // One line per iteration on a terminal, silence elsewhere.
-Progress ProgressLines() {
-  const bool terminal = isatty(STDERR_FILENO);
+Progress ProgressLines(bool quiet) {
+  const bool terminal = !quiet && isatty(STDERR_FILENO);
   if (terminal) {
     fmt::print(stderr, "{:>5} {:>4} {:>12} {:>8} {:>7} {:>8} {:>8} {:>7}\n", "stage", "it", "cost",
                "step cm", "s GLI", "depth cm", "hold cm", "s");
@@ -107,13 +107,14 @@ int RunRetarget(const RetargetOptions& options) {
   const Settings settings = EffectiveSettings(options);
   const Job job = LoadJob(options);
   OutputSet output(options.out, OutputNames(job), InputPaths(options), options.force);
-  TellNotes(job);
+  if (!options.quiet) TellNotes(job);
   if (options.show == "characters") CheckCharacters(job);
 
   // Fit the template, find tangles and contacts, place, start, solve.
   CatchInterrupts();
   const RetargetResult result =
-      Retarget(job.input, settings, options.progress == "json" ? ProgressJson() : ProgressLines());
+      Retarget(job.input, settings,
+               options.progress == "json" ? ProgressJson() : ProgressLines(options.quiet));
   for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   // Measure what is written, as it would be read back.
@@ -158,6 +159,7 @@ int RunRetarget(const RetargetOptions& options) {
   output.Add("config.yaml", FormatSettings(settings));
   output.Commit();
 
+  if (options.quiet) return exit_code;
   if (options.json) {
     fmt::print("{}\n", report.dump(1));
     return exit_code;

@@ -1,8 +1,5 @@
 // `retarget studio`: the posing page, served on this machine.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -10,6 +7,7 @@
 #include <thread>
 
 #include "io/template_file.h"
+#include "tools/child_process.h"
 #include "tools/commands.h"
 #include "tools/embedded_page.h"
 #include "tools/files.h"
@@ -35,19 +33,6 @@ StudioStart StartOf(const StudioOptions& options, StudioLibrary* library) {
   photo.file = std::string("photo.") + kind->extension;
   start.posture.posture.photo = photo;
   return start;
-}
-
-// The user's browser, where there is one.
-void Open(const std::string& url) {
-  const char* arguments[] = {"xdg-open", url.c_str(), nullptr};
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addclosefrom_np(&quiet, 3);
-  pid_t child;
-  posix_spawnp(&child, arguments[0], &quiet, nullptr, const_cast<char**>(arguments), environ);
-  posix_spawn_file_actions_destroy(&quiet);
 }
 
 std::string Page() {
@@ -76,7 +61,9 @@ int RunStudio(const StudioOptions& options) {
   std::thread serving([&] { server.Run(); });
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  if (options.browser) Open(server.url());
+  if (options.browser && !Launch({"xdg-open", server.url()})) {
+    fmt::print(stderr, "open this address in a browser\n");
+  }
   int signal = 0;
   sigwait(&ends, &signal);
   server.Stop();

@@ -115,7 +115,9 @@ StudioLibrary::StudioLibrary(const std::string& folder, const std::string& named
     roots_ = {{fs::canonical(folder), IsWithin(folder, shipped)}};
   }
   if (named.empty()) return;
-  const fs::path path = fs::canonical(named);
+  std::error_code error;
+  const fs::path path = fs::canonical(named, error);
+  if (error) throw InputError("--template " + named + ": cannot be opened");
   named_id_ = CheckedId(path.filename() == kTemplate ? path.parent_path().filename().string()
                                                      : path.stem().string());
   const std::optional<Place> known = Find(named_id_);

@@ -4,6 +4,8 @@
 #include <httplib.h>
 #include <sys/socket.h>
 
+#include <chrono>
+
 #include "tools/studio_error.h"
 
 namespace retarget {
@@ -101,7 +103,12 @@ struct StudioServer::Http {
     server.set_payload_max_length(kMostBytes);
     server.set_default_headers(SafetyHeaders());
     const auto handle = [this](const httplib::Request& request, httplib::Response& response) {
-      Send(AnswerTo(request), &response);
+      const auto started = std::chrono::steady_clock::now();
+      const StudioAnswer answer = AnswerTo(request);
+      const std::chrono::duration<double, std::milli> took =
+          std::chrono::steady_clock::now() - started;
+      response.set_header("Server-Timing", fmt::format("total;dur={:.3f}", took.count()));
+      Send(answer, &response);
     };
     const char* any = R"([\s\S]*)";
     server.Get(any, handle);

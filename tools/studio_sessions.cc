@@ -74,6 +74,9 @@ std::optional<PoseResult> StudioSession::Do(const std::vector<Fields>& ops, bool
   } catch (const InputError& error) {
     pose_ = before;
     throw InputError(std::string("nothing was done: ") + error.what());
+  } catch (...) {
+    pose_ = before;
+    throw;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "model/path.h"
 #include "model/so3.h"
 #include "solver/guard.h"
+#include "solver/meeting.h"
 #include "solver/simulation/physics_world.h"
 #include "solver/simulation/tangle_force.h"
 #include "solver/spacetime.h"
@@ -17,6 +18,7 @@ namespace retarget {
 namespace {
 
 constexpr double kFallen = 0.35;   // of the stature: the root this far below its target
+constexpr double kStrayed = 0.35;  // of the stature: the root this far off its target in any way
 constexpr double kLostGli = 0.25;  // turns: a tag below this ...
 constexpr double kLostTime = 0.5;  // s: ... from then to the end, for at least this long
 constexpr double kRestTime = 0.1;  // s at rest before the clips begin
@@ -37,7 +39,8 @@ class Run {
         frame_time_(1 / scene.fps()),
         steps_per_frame_(static_cast<int>(std::ceil(frame_time_ / settings.time_step - 1e-9))),
         world_(Figures(), Ties(), Options()),
-        tangle_force_(scene, settings) {
+        tangle_force_(scene, settings),
+        meeting_(MeetingShifts(scene)) {
     for (int f = 0; f < 2; ++f) {
       relative_[f] = RelativeRootTargets(scene, f);
       result_.motion[f].fps = scene.fps();
@@ -162,7 +165,8 @@ class Run {
   Target TargetAt(int t, int next, double u) const {
     Target target;
     for (int f = 0; f < 2; ++f) {
-      const Pose &from = scene_.source[f].frames[t], &to = scene_.source[f].frames[next];
+      const Pose from = ShiftedRoot(scene_.source[f].frames[t], meeting_[f][t]);
+      const Pose to = ShiftedRoot(scene_.source[f].frames[next], meeting_[f][next]);
       target.pose[f] = Interpolate(from, to, u);
       target.root_velocity[f] = (to.root_position - from.root_position) / frame_time_;
       for (size_t l = 0; l < from.rotation.size(); ++l) {
@@ -189,10 +193,10 @@ class Run {
     for (int f = 0; f < 2; ++f) {
       const Pose pose = world_.PoseOf(f);
       const Pose& aim = target.pose[f];
-      world_.AddForce(f, 0, posed_[f].centre[0],
-                      settings_.root_stiffness *
-                          (aim.root_position - pose.root_position +
-                           settings_.root_damping * target.root_velocity[f]));
+      world_.AddForce(
+          f, 0, posed_[f].centre[0],
+          settings_.root_stiffness * (aim.root_position - pose.root_position +
+                                      settings_.root_damping * target.root_velocity[f]));
       for (int l = 0; l < scene_.body[f].num_links(); ++l) {
         const Vec3 error = LogSo3(pose.rotation[l].conjugate() * aim.rotation[l]);
         const double stiffness = l == 0 ? settings_.root_turn_stiffness : stiffness_[f][l];
@@ -298,9 +302,10 @@ class Run {
 
   bool Fallen(int t) {
     for (int f = 0; f < 2; ++f) {
-      const double aim = TargetAt(t, t, 0).pose[f].root_position.y();
-      const double depth = aim - world_.PoseOf(f).root_position.y();
-      if (depth < kFallen * scene_.body[f].stature) continue;
+      const Vec3 off = world_.PoseOf(f).root_position - TargetAt(t, t, 0).pose[f].root_position;
+      const double share = off.norm() / scene_.body[f].stature;
+      if (share > stray_.share) stray_ = {share, off.norm(), f, t};
+      if (-off.y() < kFallen * scene_.body[f].stature) continue;
       char text[100];
       std::snprintf(text, sizeof text, "%s fell at frame %d", f == 0 ? "a" : "b", t);
       Stop(SimulationStatus::kFell, text);
@@ -325,6 +330,7 @@ class Run {
     }
     JudgeTags();
     if (result_.status == SimulationStatus::kCompleted) JudgePassThroughs();
+    if (result_.status == SimulationStatus::kCompleted) JudgeStray();
     if (result_.status == SimulationStatus::kCompleted) result_.message = "it ran to the end";
   }
 
@@ -377,6 +383,20 @@ class Run {
     }
   }
 
+  // A figure that stumbled and is dragged along shows nothing of its motion: no start for a solve.
+  void JudgeStray() {
+    if (stray_.share < kStrayed) return;
+    char text[100];
+    std::snprintf(text, sizeof text, "%s strayed %.2f m from its way at frame %d",
+                  stray_.figure == 0 ? "a" : "b", stray_.distance_m, stray_.frame);
+    Stop(SimulationStatus::kStrayed, text);
+  }
+
+  // Where a root was furthest from where the control wanted it.
+  struct Stray {
+    double share = 0, distance_m = 0;  // share of the stature
+    int figure = 0, frame = 0;
+  };
   struct Foot {
     int figure, node, tie;
     bool planted;
@@ -391,7 +411,9 @@ class Run {
   PhysicsWorld world_;
   TangleForce tangle_force_;
   std::array<std::vector<RelativeRoot>, 2> relative_;
+  std::array<std::vector<RootShift>, 2> meeting_;
   std::array<PosedBody, 2> posed_;
+  Stray stray_;
   std::vector<char> simulated_;  // per frame
   SimulationResult result_;
 };
@@ -399,7 +421,8 @@ class Run {
 }  // namespace
 
 const char* NameOf(SimulationStatus status) {
-  constexpr const char* kNames[] = {"completed", "diverged", "fell", "lost_hold", "passed_through"};
+  constexpr const char* kNames[] = {"completed", "diverged",       "fell",
+                                    "lost_hold", "passed_through", "strayed"};
   return kNames[static_cast<int>(status)];
 }
 

@@ -16,7 +16,7 @@
 
 namespace retarget {
 
-enum class SimulationStatus { kCompleted, kDiverged, kFell, kLostHold, kPassedThrough };
+enum class SimulationStatus { kCompleted, kDiverged, kFell, kLostHold, kPassedThrough, kStrayed };
 const char* NameOf(SimulationStatus status);
 
 struct SimulationResult {
@@ -31,8 +31,8 @@ struct SimulationResult {
   double simulated = 0;  // s of simulated time
 };
 
-// Never throws for what happens in the simulated world: a run that diverges, falls or loses its
-// hold says so in `status`.
+// Never throws for what happens in the simulated world: a run that diverges, falls, strays or loses
+// its hold says so in `status`.
 SimulationResult Simulate(const Scene& scene, const SimulationSettings& settings);
 
 }  // namespace retarget

@@ -62,7 +62,7 @@ std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure) {
   return targets;
 }
 
-RootTracking::RootTracking(const Scene& scene) {
+RootTracking::RootTracking(const Scene& scene) : meeting_(MeetingShifts(scene)) {
   for (int f = 0; f < 2; ++f) relative_[f] = RelativeRootTargets(scene, f);
 }
 
@@ -72,8 +72,27 @@ void RootTracking::Evaluate(const Frame& frame, Rows* rows) const {
       EvaluateFollower(frame, f, rows);
       continue;
     }
-    const int first = frame.scene->FirstCoordinate(f);
+    EvaluateLeader(frame, f, rows);
+  }
+}
+
+void RootTracking::EvaluateLeader(const Frame& frame, int figure, Rows* rows) const {
+  const RootShift& shift = meeting_[figure][frame.t];
+  const Pose& source = frame.scene->source[figure].frames[frame.t];
+  const int first = frame.scene->FirstCoordinate(figure);
+  if (shift.yaw == 0 && shift.shift.isZero(0)) {  // the edit itself is the error
     for (int c = first; c < first + 6; ++c) rows->AddCoordinate(c, frame.x[c], 1);
+    return;
+  }
+  const Pose target = ShiftedRoot(source, shift);
+  const Vec3& p = frame.posed[figure].centre[0];
+  const Mat3& now = frame.posed[figure].rotation[0];
+  const Vec3 angle = LogSo3(Quat(Mat3(target.rotation[0].toRotationMatrix().transpose() * now)));
+  const Mat3 jacobian = RightJacobianInverse(angle) * now.transpose();
+  for (int k = 0; k < 3; ++k) {
+    const int row = rows->Add(p[k] - target.root_position[k]);
+    rows->AddPoint(row, figure, 0, p, Vec3::Unit(k));
+    rows->AddTurn(rows->Add(angle[k]), figure, 0, jacobian.row(k).transpose());
   }
 }
 

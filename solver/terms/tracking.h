@@ -1,7 +1,8 @@
 // pose_tracking: every joint stays as captured.
 //   r = s_j delta_j                          (rad), delta the edit R = R_source exp(delta)
-// root_tracking: the root stays with its placed clip,
-//   r = (p - p_source, delta_root)           (m, rad)
+// root_tracking: the root stays with its placed clip, shifted where the two clips drift apart
+// (solver/meeting.h),
+//   r = (p - p_target, log(R_target^T R))    (m, rad)
 // or, for a figure that follows its partner, keeps the capture's motion relative to where the
 // template puts it on the partner:
 //   X_target(t) = X_partner(t) X_partner,T^-1 X_T X_clip(t0)^-1 X_clip(t),  X in SE(3)
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "model/settings.h"
+#include "solver/meeting.h"
 #include "solver/term.h"
 
 namespace retarget {
@@ -47,8 +49,10 @@ class RootTracking : public Term {
   void Evaluate(const Frame& frame, Rows* rows) const override;
 
  private:
+  void EvaluateLeader(const Frame& frame, int figure, Rows* rows) const;
   void EvaluateFollower(const Frame& frame, int figure, Rows* rows) const;
   std::array<std::vector<RelativeRoot>, 2> relative_;
+  std::array<std::vector<RootShift>, 2> meeting_;
 };
 
 }  // namespace retarget

@@ -188,6 +188,30 @@ TEST(RecogniseTest, UpAxisFromTheMotion) {
   EXPECT_EQ(Recognise(figure.motion, {}, "f.bvh").up, 'z');
 }
 
+// On its side, or face up with the legs hanging, no axis is told by the motion.
+TEST(RecogniseTest, LyingFigureTellsUpByItsOffsets) {
+  for (const Vec3& lying : {Vec3(0, 0, 100), Vec3(40, 20, 95), Vec3(0, 30, -92)}) {
+    Figure figure(ClassicNames());
+    figure.motion.frames[0].rotation[0] =
+        ExpSo3(Vec3(10 * kDegree, 0, 0)) * ExpSo3(lying * kDegree);
+    const RigFacts facts = Recognise(figure.motion, {}, "f.bvh");
+    EXPECT_EQ(facts.up, 'y') << lying.transpose();
+    EXPECT_TRUE(HasNote(facts, "seldom stands along +y"));
+    EXPECT_EQ(Recognise(figure.motion, {.metres_per_unit = {}, .up = 'z'}, "f.bvh").up, 'z');
+  }
+}
+
+// Thighs raised and shins folded under them: the toes point backwards on a sound figure.
+TEST(RecogniseTest, LegsDrawnUpAreNotMirrored) {
+  Figure figure(ClassicNames());
+  for (const std::string side : {"left", "right"}) {
+    figure.motion.frames[0].rotation[figure.Index(side + "_hip")] = ExpSo3(Vec3(-1.0, 0, 0));
+    figure.motion.frames[0].rotation[figure.Index(side + "_knee")] = ExpSo3(Vec3(2.4, 0, 0));
+    figure.motion.frames[0].rotation[figure.Index(side + "_ankle")] = ExpSo3(Vec3(0.9, 0, 0));
+  }
+  EXPECT_FALSE(HasNote(Recognise(figure.motion, {}, "f.bvh"), "exchanged"));
+}
+
 TEST(RecogniseTest, NotesMirroredAndUnequalFigures) {
   Names exchanged;
   for (const auto& [key, name] : ClassicNames()) {

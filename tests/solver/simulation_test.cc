@@ -182,6 +182,18 @@ TEST(Simulation, WithoutControlTheFiguresFall) {
   EXPECT_NE(result.message.find("fell at frame"), std::string::npos) << result.message;
 }
 
+// The control pulls a standing figure along its clip, but its feet are nailed to the floor for good.
+TEST(Simulation, AFigureThatCannotFollowItsMotionHasStrayed) {
+  Scene scene = StandingApart(60);
+  for (int t = 0; t < 60; ++t) scene.source[1].frames[t].root_position.z() += 0.04 * t;
+  const SimulationResult result = Simulate(scene, {});
+  EXPECT_EQ(result.status, SimulationStatus::kStrayed) << result.message;
+  EXPECT_EQ(result.frames_simulated, 60);
+  EXPECT_NE(result.message.find("b strayed"), std::string::npos) << result.message;
+  scene.contacts[1].clear();
+  EXPECT_EQ(Simulate(scene, {}).status, SimulationStatus::kCompleted);
+}
+
 TEST(Simulation, ALostHoldIsSaid) {
   Scene scene = SmallScene(45, 0.05);
   ASSERT_FALSE(scene.tangles.empty());

@@ -97,8 +97,13 @@ Unknowns RandomEdit(const Scene& scene, double size, unsigned seed) {
 
 TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
   std::map<std::string, Checked> checked;
-  for (const bool follow : {false, true}) {
-    Scene scene = SmallScene(4, 0.2, follow);
+  for (const std::string roots : {"own", "follow", "drift"}) {
+    Scene scene = SmallScene(4, 0.2, roots == "follow");
+    for (int t = 0; t < 4 && roots == "drift"; ++t) {  // b walks and turns away from a
+      Pose& b = scene.source[1].frames[t];
+      b.root_position += Vec3(0.1 * t, 0, 0.2 * t);
+      b.rotation[0] = YawRotation(0.3 * t) * b.rotation[0];
+    }
     // An elbow that only bends, an ankle of two axes.
     for (int f = 0; f < 2; ++f) {
       const int elbow = scene.body[f].FindLink("left_elbow");

@@ -33,3 +33,6 @@ echo "== solves"
 
 echo "== posing"
 "$build/tools/bench/pose_bench" | tee "$build/pose.txt"
+
+echo "== drags in the studio, over HTTP"
+"$build/tools/bench/studio_bench" | tee "$build/studio.txt"

@@ -1,0 +1,46 @@
+#!/bin/sh
+# The operations that made template.yaml: pose.sh RETARGET OUT.yaml
+# a stands bent, b sits on his back; the last operations part them and close the holds.
+"$1" pose --rest \
+  --stature a=1.80 --root a=0,0.955,0,12,0,0 \
+  --rotate a/waist=8.0,0.0,0.0 \
+  --rotate a/chest=6.0,0.0,0.0 \
+  --rotate a/neck=-6.0,0.0,0.0 \
+  --rotate a/head=-10.0,0.0,0.0 \
+  --rotate a/left_hip=-30.1,-0.1,1.9 \
+  --rotate a/left_knee=40.1,0.0,-0.0 \
+  --rotate a/left_ankle=-11.9,4.3,-3.2 \
+  --rotate a/right_hip=-30.1,0.1,-1.9 \
+  --rotate a/right_knee=40.1,-0.0,0.0 \
+  --rotate a/right_ankle=-11.9,-4.3,3.2 \
+  --rotate a/left_shoulder=54.2,-24.2,-54.4 \
+  --rotate a/left_elbow=-67.0,-58.7,-47.1 \
+  --rotate a/left_wrist=0.0,-65.6,-86.0 \
+  --rotate a/right_shoulder=54.2,24.2,54.4 \
+  --rotate a/right_elbow=-67.0,58.7,47.1 \
+  --rotate a/right_wrist=0.0,65.6,86.0 \
+  --stature b=1.66 --root b=0,1.165,-0.205,18,0,0 \
+  --rotate b/waist=4.0,0.0,0.0 \
+  --rotate b/chest=2.0,0.0,0.0 \
+  --rotate b/neck=4.0,8.0,4.0 \
+  --rotate b/left_hip=-100.2,38.3,17.5 \
+  --rotate b/left_knee=72.3,-0.0,-0.0 \
+  --rotate b/left_ankle=37.6,-31.0,9.2 \
+  --rotate b/right_hip=-100.2,-38.3,-17.5 \
+  --rotate b/right_knee=72.3,0.0,0.0 \
+  --rotate b/right_ankle=37.6,31.0,-9.2 \
+  --rotate b/left_clavicle=0.0,-18.0,10.0 \
+  --rotate b/left_shoulder=-7.7,-51.3,-8.7 \
+  --rotate b/left_elbow=-52.5,-75.4,-48.7 \
+  --rotate b/left_wrist=0.0,-3.0,-20.3 \
+  --rotate b/right_clavicle=0.0,18.0,-10.0 \
+  --rotate b/right_shoulder=-3.4,47.7,16.1 \
+  --rotate b/right_elbow=-47.8,75.9,43.0 \
+  --rotate b/right_wrist=0.0,12.0,22.3 \
+  --option root=off --settle --settle \
+  --hold a/left_hand=b/left_knee --hold a/right_hand=b/right_knee --hold b/left_hand=b/right_wrist \
+  --settle --leader b=partner \
+  --supports a=left_ankle,left_toe,right_ankle,right_toe --supports b= \
+  --name 'piggyback' --tags 'carry,walking,on the back' \
+  --description "a carries b on the back: b's arms round a's neck, a's arms hook b's thighs." \
+  --out "$2" --force

@@ -1,0 +1,48 @@
+#!/bin/sh
+# The operations that made template.yaml: pose.sh RETARGET OUT.yaml
+# Both stand; their arms were found by inverse kinematics; the last operations close the holds.
+"$1" pose --rest \
+  --stature a=1.68 --root a=0,0.918,0,4,0,0 \
+  --rotate a/waist=5.0,6.0,2.0 \
+  --rotate a/chest=5.0,6.0,2.0 \
+  --rotate a/neck=-2.0,0.0,-6.0 \
+  --rotate a/head=-6.0,0.0,-2.0 \
+  --rotate a/left_hip=-17.0,-0.1,1.0 \
+  --rotate a/left_knee=28.2,0.0,-0.0 \
+  --rotate a/left_ankle=-5.2,3.7,-1.8 \
+  --rotate a/right_hip=-16.8,0.2,-2.4 \
+  --rotate a/right_knee=27.9,0.0,0.0 \
+  --rotate a/right_ankle=-5.0,-3.4,3.2 \
+  --rotate a/left_clavicle=0.0,16.0,8.0 \
+  --rotate a/left_shoulder=-4.7,24.5,-55.6 \
+  --rotate a/left_elbow=-43.9,-54.6,-24.4 \
+  --rotate a/left_wrist=0.0,-19.4,-37.3 \
+  --rotate a/right_clavicle=0.0,0.0,-4.0 \
+  --rotate a/right_shoulder=-33.2,-34.5,52.0 \
+  --rotate a/right_elbow=-30.3,110.9,107.8 \
+  --rotate a/right_wrist=0.0,25.1,45.6 \
+  --stature b=1.80 --root b=0.405,0.968,0,2,0,5 \
+  --rotate b/waist=2.0,0.0,1.0 \
+  --rotate b/chest=2.0,0.0,1.0 \
+  --rotate b/neck=8.0,0.0,2.0 \
+  --rotate b/left_hip=-16.7,0.4,-3.1 \
+  --rotate b/left_knee=31.8,0.0,0.0 \
+  --rotate b/left_ankle=-7.0,3.4,-2.8 \
+  --rotate b/right_hip=-18.7,0.5,-3.4 \
+  --rotate b/right_knee=38.5,0.0,0.0 \
+  --rotate b/right_ankle=-11.9,-4.3,-0.4 \
+  --rotate b/right_clavicle=0.0,-20.0,-20.0 \
+  --rotate b/right_shoulder=9.1,1.9,11.6 \
+  --rotate b/right_elbow=33.9,81.4,-31.3 \
+  --rotate b/right_wrist=0.0,32.1,17.8 \
+  --rotate b/left_shoulder=44.2,-10.7,-56.6 \
+  --rotate b/left_elbow=-43.1,-69.5,-32.9 \
+  --rotate b/left_wrist=0.0,11.7,6.9 \
+  --option root=off \
+  --hold a/right_hand=b/right_wrist --hold a/left_hand=b/chest \
+  --settle \
+  --supports a=left_ankle,left_toe,right_ankle,right_toe \
+  --supports b=left_ankle,left_toe,right_ankle,right_toe \
+  --name 'supported walk' --tags 'carry,walking,side by side' \
+  --description "a walks with b's right arm over the shoulders, wrist in hand, left arm round b." \
+  --out "$2" --force
