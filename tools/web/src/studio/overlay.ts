@@ -5,7 +5,7 @@ import { cssOf, figureColour, mix, rgbOf } from "../shared/colours";
 import { figureNames } from "../shared/figure_scene";
 import { themeColour } from "../shared/theme";
 import { drawLimits } from "./limits";
-import { isBehind, isMinor } from "./picking";
+import { isBehind, isMinor, unit } from "./picking";
 import type { Vec } from "./protocol";
 import type { Pick, Store } from "./store";
 import type { View } from "./view";
@@ -38,14 +38,22 @@ function diamond(context: Context, at: Point, r: number): void {
   context.closePath();
 }
 
+function onPage(view: View, place: Vector3 | Vec): Point | null {
+  const at = view.project(place);
+  return at && { x: at.x / unit(), y: at.y / unit() };
+}
+
 // Words on a plate, kept inside the view.
 function label(context: Context, view: View, text: string, at: Point, colour: string): void {
-  context.font = `600 ${0.92 * rem()}px system-ui, sans-serif`;
+  context.font = "600 12px system-ui, sans-serif";
   const width = context.measureText(text).width + 12;
-  const height = 1.55 * rem();
+  const height = 20;
   const box = view.element.getBoundingClientRect();
-  const x = Math.min(Math.max(at.x + 12, box.left + 4), box.right - width - 4);
-  const y = Math.min(Math.max(at.y - height - 8, box.top + 4), box.bottom - height - 4);
+  const [left, top, right, bottom] = [box.left, box.top, box.right, box.bottom].map(
+    (v) => v / unit(),
+  );
+  const x = Math.min(Math.max(at.x + 12, left + 4), right - width - 4);
+  const y = Math.min(Math.max(at.y - height - 8, top + 4), bottom - height - 4);
   context.fillStyle = themeColour("--card");
   context.strokeStyle = themeColour("--edge");
   context.lineWidth = 1;
@@ -57,16 +65,16 @@ function label(context: Context, view: View, text: string, at: Point, colour: st
   context.textBaseline = "middle";
   context.fillText(text, x + 6, y + height / 2 + 0.5);
 }
-const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
 
 export class Overlay {
   constructor(private readonly store: Store) {}
 
   draw(context: Context, view: View): void {
+    if (view.name === "main") drawLimits(context, view, this.store);
+    context.scale(unit(), unit());
     this.rays(context, view);
     this.holds(context, view);
     this.supports(context, view);
-    if (view.name === "main") drawLimits(context, view, this.store);
     this.handles(context, view);
     this.pins(context, view);
     this.overlaps(context, view);
@@ -83,12 +91,11 @@ export class Overlay {
       const colour = rgbOf(figureColour[figure]);
       store.body[figure].nodes.forEach(({ name }, node) => {
         const pick = { figure, node };
-        const at = view.project(store.place(pick));
+        const at = onPage(view, store.place(pick));
         if (!at) return;
         const [hovered, selected] = [same(ui.hovered, pick), same(ui.selected, pick)];
         const behind = !hovered && !selected && isBehind(store, view, pick);
-        const radius =
-          (hovered || selected ? 6.5 : isMinor(name) ? 3.4 : 4.6) * small * (rem() / 13);
+        const radius = (hovered || selected ? 6.5 : isMinor(name) ? 3.4 : 4.6) * small;
         context.globalAlpha = behind ? 0.3 : 1;
         disc(context, at, radius);
         context.fillStyle = cssOf(mix(colour, [1, 1, 1], hovered ? 0.65 : 0.25));
@@ -113,7 +120,7 @@ export class Overlay {
 
   private pins(context: Context, view: View): void {
     for (const pin of this.store.state.pins) {
-      const at = view.project(pin.position);
+      const at = onPage(view, pin.position);
       if (!at) continue;
       diamond(context, at, view.name === "main" ? 7 : 5);
       context.fillStyle = "#F0E442";
@@ -136,7 +143,7 @@ export class Overlay {
         new Vector3(...ray.direction).normalize(),
       ];
       const [from, to] = [0.5, 9].map((s) =>
-        view.project(origin.clone().addScaledVector(direction, s)),
+        onPage(view, origin.clone().addScaledVector(direction, s)),
       );
       if (from && to && Math.hypot(from.x - to.x, from.y - to.y) > 3) line(context, from, to);
     }
@@ -145,7 +152,7 @@ export class Overlay {
 
   private holds(context: Context, view: View): void {
     this.store.state.holds.forEach((hold, k) => {
-      const [from, to] = [view.project(hold.from_place), view.project(hold.to_place)];
+      const [from, to] = [onPage(view, hold.from_place), onPage(view, hold.to_place)];
       if (!from || !to) return;
       const open = hold.error_m > kOpen;
       const lit = this.store.ui.litHold === k;
@@ -192,11 +199,11 @@ export class Overlay {
         const node = this.store.findNode(figure, name);
         const place = this.store.place({ figure, node });
         if (place[1] > 0.15) continue;
-        const at = view.project([place[0], 0, place[2]] as Vec);
+        const at = onPage(view, [place[0], 0, place[2]] as Vec);
         const across = new Vector3()
           .setFromMatrixColumn(view.camera.matrixWorld, 0)
           .multiplyScalar(0.045);
-        const edge = view.project(new Vector3(place[0], 0, place[2]).add(across));
+        const edge = onPage(view, new Vector3(place[0], 0, place[2]).add(across));
         if (!at || !edge) continue;
         const half = Math.hypot(edge.x - at.x, edge.y - at.y);
         line(context, { x: at.x - half, y: at.y }, { x: at.x + half, y: at.y });
@@ -209,7 +216,7 @@ export class Overlay {
     // Deepest first; that one alone says how deep.
     for (const [k, { depth_m, place }] of this.store.state.queries.overlaps.entries()) {
       if (depth_m < kOverlapFrom) continue;
-      const at = view.project(place);
+      const at = onPage(view, place);
       if (!at) continue;
       disc(context, at, 9);
       context.fillStyle = "rgb(213 94 0 / 0.35)";
@@ -226,7 +233,7 @@ export class Overlay {
   private target(context: Context, view: View): void {
     const { dragTarget, selected } = this.store.ui;
     if (!dragTarget || !selected) return;
-    const [at, node] = [view.project(dragTarget), view.project(this.store.place(selected))];
+    const [at, node] = [onPage(view, dragTarget), onPage(view, this.store.place(selected))];
     if (!at || !node) return;
     context.lineWidth = 1.5;
     context.strokeStyle = themeColour("--ink");
@@ -241,7 +248,7 @@ export class Overlay {
     const { hovered, selected, dragging } = this.store.ui;
     const named = hovered ?? (dragging ? selected : null);
     if (!named) return;
-    const at = view.project(this.store.place(named));
+    const at = onPage(view, this.store.place(named));
     if (!at || (view.name !== "main" && !view.element.matches(":hover"))) return;
     label(
       context,

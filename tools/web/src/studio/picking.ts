@@ -5,10 +5,19 @@ import { figureNames } from "../shared/figure_scene";
 import type { Pick, Store } from "./store";
 import type { View } from "./view";
 
-const kReach = 13; // px round a handle
-const kBehind = 5; // px that a hidden handle counts as further away
+const kReach = 13; // units round a handle
+const kBehind = 5; // units that a hidden handle counts as further away
 
-// Nodes that take their neighbours' place in the crowd: larger handles.
+// CSS pixels of a stroke that is 1 wide on a usual screen; more where the style sheet makes
+// everything larger.
+export function unit(): number {
+  known ||= parseFloat(getComputedStyle(document.documentElement).fontSize) / 13;
+  return known;
+}
+let known = 0;
+addEventListener("resize", () => (known = 0));
+
+// Nodes in the crowd of the trunk: their handles are smaller.
 const kMinor = new Set(["neck", "head_top", "root"]);
 export const isMinor = (name: string) => kMinor.has(name);
 
@@ -71,7 +80,7 @@ export function pickNode(store: Store, view: View, x: number, y: number): Pick |
       const at = view.project(store.state.figures[figure].nodes[node]);
       if (!at) continue;
       const distance = Math.hypot(at.x - x, at.y - y);
-      if (distance > kReach) continue;
+      if (distance > kReach * unit()) continue;
       const pick = { figure, node };
       const cost =
         distance +
