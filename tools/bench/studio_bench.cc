@@ -6,6 +6,7 @@
 // Usage: studio_bench [steps]; exit code 1 where a server's 99th percentile is over 33 ms (30 Hz).
 #include <fmt/format.h>
 #include <httplib.h>
+#undef _res  // of <resolv.h>, a name that Eigen uses
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +16,7 @@
 #include <optional>
 #include <thread>
 
-#include "tools/studio_server.h"  // first: httplib.h brings a macro that Eigen cannot be read with
+#include "tools/studio_server.h"
 
 namespace retarget {
 namespace {
@@ -82,8 +83,11 @@ Vec3 PlaceOf(const Json& reply, const Json& body, const std::string& figure,
   throw std::runtime_error("no node " + node);
 }
 
-// False where the bar is missed.
-bool DragRound(PageClient* page, const std::string& id, const std::string& figure,
+struct Drag {
+  double server_ms = 0, cpu_ms = 0;  // 99th percentiles
+};
+
+Drag DragRound(PageClient* page, const std::string& id, const std::string& figure,
                const std::string& node, int steps) {
   const Json opened = page->Post("/api/session", Json::object());
   const std::string session = opened["session"];
@@ -113,7 +117,7 @@ bool DragRound(PageClient* page, const std::string& id, const std::string& figur
       id, figure, node, server.Percentile(0.5), server.Percentile(0.99), round_trip.Percentile(0.5),
       round_trip.Percentile(0.99), cpu.Percentile(0.5), cpu.Percentile(0.99),
       static_cast<double>(page->bytes) / 1000, 100 * error_m);
-  return server.Percentile(0.99) <= kBarMs;
+  return {server.Percentile(0.99), cpu.Percentile(0.99)};
 }
 
 int Run(int steps) {
@@ -124,7 +128,7 @@ int Run(int steps) {
   StudioServer server(&routes, "");
   server.Bind(0);
   std::thread serving([&] { server.Run(); });
-  bool met = true;
+  Drag worst;
   {
     PageClient page(server);
     fmt::print("{} steps each; median and 99th percentile\n", steps);
@@ -132,14 +136,20 @@ int Run(int steps) {
       for (const auto& [figure, node] :
            {std::pair("b", "head_top"), std::pair("a", "left_elbow"), std::pair("a", "head_top"),
             std::pair("b", "root"), std::pair("b", "left_hand"), std::pair("a", "right_knee")}) {
-        met = DragRound(&page, entry["id"], figure, node, steps) && met;
+        const Drag drag = DragRound(&page, entry["id"], figure, node, steps);
+        worst.server_ms = std::max(worst.server_ms, drag.server_ms);
+        worst.cpu_ms = std::max(worst.cpu_ms, drag.cpu_ms);
       }
     }
   }
   server.Stop();
   serving.join();
-  fmt::print("30 updates a second at the 99th percentile: {}\n", met ? "met" : "MISSED");
-  return met ? 0 : 1;
+  const auto verdict = [](double ms) { return ms <= kBarMs ? "met" : "MISSED"; };
+  fmt::print(
+      "30 updates a second at the 99th percentile of the worst drag: {} ({:.1f} ms; on an idle "
+      "processor {}, {:.1f} ms)\n",
+      verdict(worst.server_ms), worst.server_ms, verdict(worst.cpu_ms), worst.cpu_ms);
+  return worst.server_ms <= kBarMs ? 0 : 1;
 }
 
 }  // namespace
