@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 REAL = {
     "argentine_backbreaker": [("lafan_dance1_subject2", "own"), ("xsens_stand", "own"), ("mocapbank", "own"), ("lafan_dance1_subject2", "xsens_stand")],
     "bear_hug": [("xsens_stand", "lafan_dance1_subject2"), ("lafan_dance1_subject2", "xsens_stand"), ("mocapbank", "xsens_stand"), ("bandai_respond_normal_001", "xsens_stand")],
-    "fireman_carry": [("bandai_walk_normal_001", "own"), ("cmu_16_15", "own"), ("bandai_walk_normal_001", "xsens_stand"), ("lafan_dance1_subject2", "bandai_respond_normal_001")],
+    "fireman_carry": [("bandai_walk_normal_001", "own"), ("xsens_stand", "own"), ("cmu_16_15", "own"), ("bandai_walk_normal_001", "xsens_stand"), ("lafan_dance1_subject2", "bandai_respond_normal_001")],
     "full_nelson": [("fair_dab", "bandai_respond_normal_001"), ("lafan_dance1_subject2", "xsens_stand"), ("lafan_dance1_subject2", "bandai_respond_normal_001"), ("xsens_stand", "bandai_respond_normal_001"), ("mocapbank", "mixamo_freebvh"), ("cmu_16_15", "cmu_12_01_walk")],
     "hug": [("xsens_stand", "lafan_dance1_subject2"), ("lafan_dance1_subject2", "xsens_stand"), ("mocapbank", "xsens_stand")],
     "octopus_hold": [("fair_dab", "bandai_respond_normal_001"), ("xsens_stand", "lafan_dance1_subject2"), ("lafan_dance1_subject2", "xsens_stand"), ("bandai_respond_normal_001", "lafan_dance1_subject2")],
@@ -31,6 +31,8 @@ REAL = {
 # A T-pose stands at the beginning of these, and is no motion.
 T_POSE = {"cmu_12_01_walk": 1, "fair_dab": 42}
 START = {"lafan_dance1_subject2": 6}  # s; before that he walks in
+LONG = ("xsens_stand", "lafan_dance1_subject2")  # beside these no more than 240 frames
+FRAMES = {"bandai_respond_normal_001": 100, "bandai_walk_normal_001": 190}
 SIZES = [(0.8, 1), (1.2, 1), (1, 0.8), (1, 1.2)]
 
 
@@ -90,8 +92,8 @@ def rows(binary, hold, clips, scratch):
                 arguments += [f"--skip-frames-{f}", str(T_POSE[name])]
             if name in START:
                 arguments += [f"--start-{f}", str(START[name])]
-        if any(name in ("xsens_stand", "lafan_dance1_subject2") for name in pair):
-            arguments += ["--frames", "0:100" if any("respond" in name for name in pair) else "0:240"]
+        if any(name in LONG for name in pair):
+            arguments += ["--frames", f"0:{min(FRAMES.get(name, 240) for name in pair)}"]
         yield " x ".join(pair), cells(run(binary, out, arguments))
 
 
