@@ -19,6 +19,7 @@ constexpr double kReached = 0.01;     // m
 // Elbows and knees of captured clips may bend sideways, as nobody knows their rigs' hinges; here
 // the hinges are the body's own.
 constexpr double kHingePlay = 10 * kDegree;
+constexpr double kLeastSeconds = 1e-3;
 constexpr int kIterationsLed = 3;  // the led target moves on
 constexpr int kIterationsPerSolve = 20;
 
@@ -112,11 +113,12 @@ Scene SceneOf(const PoseTask& task) {
   return scene;
 }
 
-SolveResult SolveOnce(const PoseTask& task, const Poses& start, int iterations,
+SolveResult SolveOnce(const PoseTask& task, const Poses& start, int iterations, double max_seconds,
                       const PoseSettings& settings, Poses* pose) {
   const Scene scene = SceneOf(task);
   Settings one_frame = settings.settings;
   one_frame.solve.max_iterations = iterations;
+  one_frame.solve.max_seconds = max_seconds;
   Problem problem(scene, one_frame);
   problem.Add(std::make_unique<TargetTerm>("drag", task.drags), settings.drag);
   problem.Add(std::make_unique<TargetTerm>("pin", task.pins), settings.pin);
@@ -164,13 +166,17 @@ PoseResult SolvePose(const PoseTask& task, const Poses& start, const PoseSetting
   Bodies posed = Posed(task, start);
   Errors errors = ErrorsOf(posed, task.drags, task.drag_rays);
   double lead = settings.lead_m;
+  const bool timed = settings.max_seconds > 0;
   while (result.iterations < settings.max_iterations && !result.converged) {
+    const double left = settings.max_seconds - (SecondsNow() - started);
+    if (timed && left <= 0 && result.iterations > 0) break;
     const bool led = errors.largest > lead;
     const int iterations = std::min(settings.max_iterations - result.iterations,
                                     led ? kIterationsLed : kIterationsPerSolve);
     Poses next;
     const SolveResult solved =
-        SolveOnce(Led(task, posed, lead), result.pose, iterations, settings, &next);
+        SolveOnce(Led(task, posed, lead), result.pose, iterations,
+                  timed ? std::max(left, kLeastSeconds) : 0, settings, &next);
     result.iterations += std::max(solved.iterations, 1);
     const Bodies next_posed = Posed(task, next);
     const std::optional<LimbPair> passed = PassedThrough(task, posed, next_posed);

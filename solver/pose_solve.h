@@ -40,6 +40,7 @@ struct PoseSettings {
   double lead_m = 0.10;  // a target draws from no further than this: a far one is approached in
                          // steps, and one out of reach tears nothing apart
   int max_iterations = 200;
+  double max_seconds = 0;  // 0: no limit; else it stops after the iteration that reaches it
 };
 
 // Weights for posing: contacts and limits are stiffer than the drag, tracking much softer.
@@ -58,7 +59,7 @@ struct PoseResult {
   // Limbs that the way to the target leads through: the figures stop before.
   std::optional<LimbPair> blocked;
   bool stalled = false;    // only a step that the guard refuses leads on
-  bool converged = false;  // nothing is left to gain; else the iterations ran out
+  bool converged = false;  // nothing is left to gain; else the iterations or the time ran out
   int iterations = 0;      // accepted steps
   double seconds = 0;
 };

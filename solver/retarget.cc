@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "solver/measure.h"
+#include "solver/requirements.h"
 #include "solver/start.h"
 
 namespace retarget {
@@ -37,6 +39,15 @@ void WarnOfWeakTags(RetargetResult* result) {
   }
 }
 
+bool MeetsAll(const Problem& problem, const SolveResult& solved) {
+  const Scene& scene = problem.scene();
+  const std::array<Clip, 2> clips = EditedClips(scene, solved.unknowns);
+  const MeasureSubject subject = SubjectOf(scene);
+  const Metrics metrics =
+      Measure(subject, ViewOf(scene.body, clips), ViewOf(scene.body, scene.source));
+  return AllMet(CheckRequirements(subject, metrics, problem.settings().requirements));
+}
+
 SolveResult SolveFrom(const Problem& problem, const std::string& start, const Progress& progress,
                       RetargetResult* result) {
   const double started = SecondsNow();
@@ -44,7 +55,22 @@ SolveResult SolveFrom(const Problem& problem, const std::string& start, const Pr
                              ? UnknownsFromPoses(problem.scene(), result->simulation.motion)
                              : TemplateStart(problem);
   result->start_seconds += SecondsNow() - started;
-  return SolveSpacetime(problem, guess, progress);
+  SolveResult solved = SolveSpacetime(problem, guess, progress);
+  const SolveSettings& settings = problem.settings().solve;
+  if (solved.status != SolveStatus::kConverged || settings.max_seconds > 0 ||
+      ParseStages(settings.stages).size() == 1 || MeetsAll(problem, solved)) {
+    return solved;
+  }
+  // While contacts were weak a limb may have come to lie on the wrong side, and the guard lets it
+  // not back through: full contacts from the start keep it where it was.
+  SolveResult full = SolveSpacetime(problem, guess, {1}, progress);
+  const bool better = full.cost < solved.cost || MeetsAll(problem, full);
+  const bool interrupted = full.status == SolveStatus::kInterrupted;
+  const double seconds = solved.seconds + full.seconds;  // both were needed
+  if (better) solved = std::move(full);
+  if (interrupted) solved.status = SolveStatus::kInterrupted;
+  solved.seconds = seconds;
+  return solved;
 }
 
 // Solves from the start that the settings ask for, as far as the simulation allows.

@@ -89,7 +89,11 @@ void SolveStages(const Problem& problem, const std::vector<double>& stages, doub
 
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
                            const Progress& progress) {
-  const std::vector<double> stages = ParseStages(problem.settings().solve.stages);
+  return SolveSpacetime(problem, start, ParseStages(problem.settings().solve.stages), progress);
+}
+
+SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
+                           const std::vector<double>& stages, const Progress& progress) {
   const int threads = NumThreads(problem.settings().solve.threads);
   const double started = SecondsNow();
   SolveResult result;

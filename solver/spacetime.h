@@ -44,6 +44,9 @@ using Progress = std::function<bool(const Iteration&)>;
 
 // Solves from `start` in the stages and with the back end of the problem's settings.
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const Progress& progress);
+// The same in stages of one's own, which end with 1.
+SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
+                           const std::vector<double>& stages, const Progress& progress);
 
 // Factors of the contact weights: "0.03 0.1 0.3 1" (solve.stages). Throws InputError.
 std::vector<double> ParseStages(const std::string& text);

@@ -10,6 +10,7 @@
 #include "io/settings_file.h"
 #include "tools/commands.h"
 #include "tools/pose_words.h"
+#include "tools/studio_library.h"
 #include "tools/version.h"
 
 namespace retarget {
@@ -149,7 +150,7 @@ struct CommandLine {
     holds
         ->add_option("holds", gallery.holds,
                      "folders with template.yaml, a.bvh and b.bvh, or folders of such")
-        ->default_str("data/holds");
+        ->default_str("the shipped holds");
     holds->add_option("--out", gallery.out, "folder for the page and the runs")
         ->capture_default_str();
     holds->add_option("--config", gallery.config_path, "weights and settings (YAML)");
@@ -157,7 +158,7 @@ struct CommandLine {
     holds->add_option("--threads", gallery.threads, "0: all cores")->check(CLI::Range(0, 256));
     holds->add_flag("--force", gallery.force, "overwrite files that no earlier run wrote");
     holds->callback([this] {
-      if (gallery.holds.empty()) gallery.holds = {"data/holds"};
+      if (gallery.holds.empty()) gallery.holds = {(ShippedDataFolder() / "holds").string()};
       code = RunGallery(gallery);
     });
 

@@ -86,9 +86,10 @@ PoseTask TaskOf(const PoseState& state, const std::array<Pose, 2>& before,
   return task;
 }
 
-PoseSettings SettingsOf(const PoseOptions& options, int most_iterations) {
+PoseSettings SettingsOf(const PoseOptions& options, int most_iterations, double most_seconds) {
   PoseSettings settings = DefaultPoseSettings();
   settings.max_iterations = std::max(most_iterations, 1);
+  settings.max_seconds = most_seconds;
   Weights& w = settings.settings.weights;
   if (!options.holds) w.hold = 0;
   if (!options.limits) w.joint_limit = 0;
@@ -112,23 +113,24 @@ void PoseSession::Remember(const std::string& what) {
   gesture_ = hand_gesture_ = 0;
 }
 
-std::optional<PoseResult> PoseSession::Apply(const Operation& operation, int most_iterations) {
+std::optional<PoseResult> PoseSession::Apply(const Operation& operation, int most_iterations,
+                                             double most_seconds) {
   const std::string what = Named(operation, posture());
   if (const Drag* drag = std::get_if<Drag>(&operation)) {
     CheckNode(posture(), drag->figure, drag->node);
     CheckPlace(drag->target, "target");
     return DragTo(NodeTarget{drag->figure, drag->node, drag->target}, std::nullopt, drag->gesture,
-                  what, most_iterations);
+                  what, most_iterations, most_seconds);
   }
   if (const DragRay* drag = std::get_if<DragRay>(&operation)) {
     CheckNode(posture(), drag->figure, drag->node);
     CheckPlace(drag->origin, "origin");
     CheckDirection(drag->direction);
     return DragTo(std::nullopt, NodeRay{drag->figure, drag->node, drag->origin, drag->direction},
-                  drag->gesture, what, most_iterations);
+                  drag->gesture, what, most_iterations, most_seconds);
   }
   if (std::holds_alternative<Settle>(operation)) {
-    return DragTo(std::nullopt, std::nullopt, 0, what, most_iterations);
+    return DragTo(std::nullopt, std::nullopt, 0, what, most_iterations, most_seconds);
   }
   PoseState next = Edited(state_, operation);
   const int gesture = GestureOf(operation);
@@ -141,7 +143,7 @@ std::optional<PoseResult> PoseSession::Apply(const Operation& operation, int mos
 
 PoseResult PoseSession::DragTo(const std::optional<NodeTarget>& target,
                                const std::optional<NodeRay>& ray, int gesture,
-                               const std::string& what, int most_iterations) {
+                               const std::string& what, int most_iterations, double most_seconds) {
   if (gesture == 0 || gesture != gesture_) {
     Remember(what);
     before_ = posture().pose;
@@ -158,7 +160,7 @@ PoseResult PoseSession::DragTo(const std::optional<NodeTarget>& target,
   if (target) targets_.push_back(*target);
   if (ray) rays_.push_back(*ray);
   const PoseResult result = SolvePose(TaskOf(state_, before_, targets_, rays_), posture().pose,
-                                      SettingsOf(state_.options, most_iterations));
+                                      SettingsOf(state_.options, most_iterations, most_seconds));
   state_.posture.pose = result.pose;
   for (PinnedNode& pin : state_.pins) {  // a pinned node that is dragged is pinned where it ends
     if (!same(pin)) continue;

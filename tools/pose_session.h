@@ -21,8 +21,10 @@ class PoseSession {
 
   // Does one operation; what the solver found where it was asked. Throws InputError and changes
   // nothing where the operation is not valid. `most_iterations` bounds the solver: about 12 for
-  // one step of a drag on a page, more where it is to arrive in one step.
-  std::optional<PoseResult> Apply(const Operation& operation, int most_iterations = 200);
+  // one step of a drag on a page, more where it is to arrive in one step; `most_seconds`, where it
+  // is not 0, bounds its time as well.
+  std::optional<PoseResult> Apply(const Operation& operation, int most_iterations = 200,
+                                  double most_seconds = 0);
 
   // To the exact state before the last step, or the last one undone. False where there is none.
   bool Undo();
@@ -51,7 +53,7 @@ class PoseSession {
   };
 
   PoseResult DragTo(const std::optional<NodeTarget>& target, const std::optional<NodeRay>& ray,
-                    int gesture, const std::string& what, int most_iterations);
+                    int gesture, const std::string& what, int most_iterations, double most_seconds);
   void Remember(const std::string& what);
   bool Walk(std::vector<Step>* from, std::vector<Step>* to);
 

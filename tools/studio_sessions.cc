@@ -17,6 +17,7 @@ namespace retarget {
 namespace {
 
 constexpr int kLiveIterations = 12, kAllIterations = 200;
+constexpr double kLiveSeconds = 0.02;         // 30 Hz on a busy machine too; the next step goes on
 constexpr size_t kMostPhotoBytes = 32 << 20;  // of a session
 constexpr size_t kMostDocuments = 1000;
 
@@ -91,7 +92,8 @@ std::optional<PoseResult> StudioSession::DoSteps(const std::vector<PoseStep>& st
       continue;
     }
     const auto solved =
-        pose_.Apply(std::get<Operation>(steps[k]), live ? kLiveIterations : kAllIterations);
+        pose_.Apply(std::get<Operation>(steps[k]), live ? kLiveIterations : kAllIterations,
+                    live ? kLiveSeconds : 0);
     if (solved) result = solved;
     pose_.Join(true);
   }

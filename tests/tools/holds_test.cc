@@ -105,6 +105,19 @@ TEST_P(Holds, TheGeneratorMakesTheClips) {
 INSTANTIATE_TEST_SUITE_P(Shipped, Holds, testing::ValuesIn(HoldNames()),
                          [](const auto& hold) { return hold.param; });
 
+// A small man chokes a tall one: while contacts are weak his arms come to lie on the wrong side of
+// the other's, and no guarded step leads back. The solve begins again with full contacts.
+TEST(ShippedHolds, LimbsOnTheWrongSideAreSolvedAgain) {
+  const Scratch scratch;
+  const std::string hold = ProjectPath("data/holds/rear_choke");
+  const Outcome run = RunProgram(scratch, "--clip-a " + hold + "/a.bvh --clip-b " + hold +
+                                              "/b.bvh --template " + hold +
+                                              "/template.yaml --stature-a 1.46 --stature-b 2.03 "
+                                              "--frames 0:140 --out " +
+                                              (scratch / "out"));
+  EXPECT_EQ(run.code, 0) << run.out;
+}
+
 TEST(Gallery, RunsHoldsAndShowsThem) {
   const Scratch scratch;
   // A hold of 30 frames: the shipped one, cut.

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <httplib.h>
+#undef _res  // of <resolv.h>, a name that Eigen uses
 #include <spawn.h>
 
 #include <csignal>

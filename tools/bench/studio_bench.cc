@@ -1,12 +1,12 @@
 // How long a drag's step takes in the studio: messages as the page sends them, over loopback, to a
 // server with the shipped library; both figures, holds, limits, penetration and floor on. Nodes of
 // both figures go round a loop of 10 cm in small steps. Per template and node: median and 99th
-// percentile at the server (from the message to the answer's text) and of the round trip.
+// percentile at the server (from the message to the answer's text), of the round trip, and of the
+// server's processor time, which says what an idle machine would need.
 // Usage: studio_bench [steps]; exit code 1 where a server's 99th percentile is over 33 ms (30 Hz).
-#include "tools/studio_server.h"  // first: httplib.h brings a macro that Eigen cannot be read with
-
 #include <fmt/format.h>
 #include <httplib.h>
+#undef _res  // of <resolv.h>, a name that Eigen uses
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +15,8 @@
 #include <filesystem>
 #include <optional>
 #include <thread>
+
+#include "tools/studio_server.h"
 
 namespace retarget {
 namespace {
@@ -51,12 +53,13 @@ class PageClient {
     }
     round_trip_ms = took.count();
     const std::string timing = result->get_header_value("Server-Timing");
-    server_ms = std::atof(timing.substr(timing.find("dur=") + 4).c_str());
+    server_ms = std::atof(timing.substr(timing.find("total;dur=") + 10).c_str());
+    cpu_ms = std::atof(timing.substr(timing.find("cpu;dur=") + 8).c_str());
     bytes = result->body.size();
     return Json::parse(result->body);
   }
 
-  double round_trip_ms = 0, server_ms = 0;  // of the last message
+  double round_trip_ms = 0, server_ms = 0, cpu_ms = 0;  // of the last message
   size_t bytes = 0;
 
  private:
@@ -80,14 +83,17 @@ Vec3 PlaceOf(const Json& reply, const Json& body, const std::string& figure,
   throw std::runtime_error("no node " + node);
 }
 
-// False where the bar is missed.
-bool DragRound(PageClient* page, const std::string& id, const std::string& figure,
+struct Drag {
+  double server_ms = 0, cpu_ms = 0;  // 99th percentiles
+};
+
+Drag DragRound(PageClient* page, const std::string& id, const std::string& figure,
                const std::string& node, int steps) {
   const Json opened = page->Post("/api/session", Json::object());
   const std::string session = opened["session"];
   const Json loaded = page->Post("/api/load", {{"session", session}, {"template", id}});
   const Vec3 start = PlaceOf(loaded, loaded["body"], figure, node);
-  Times server, round_trip, solver;
+  Times server, round_trip, cpu;
   double error_m = 0;
   for (int k = 1; k <= steps; ++k) {
     const double turn = 2 * kPi * k / steps;
@@ -102,16 +108,16 @@ bool DragRound(PageClient* page, const std::string& id, const std::string& figur
         page->Post("/api/do", {{"session", session}, {"live", true}, {"ops", Json::array({drag})}});
     server.ms.push_back(page->server_ms);
     round_trip.ms.push_back(page->round_trip_ms);
-    solver.ms.push_back(reply["result"]["ms"].get<double>());
+    cpu.ms.push_back(page->cpu_ms);
     error_m = std::max(error_m, reply["result"]["drag_error_m"].get<double>());
   }
   fmt::print(
-      "{:<22} {}/{:<11} server {:6.2f} {:6.2f}  round trip {:6.2f} {:6.2f}  solver alone "
+      "{:<22} {}/{:<11} server {:6.2f} {:6.2f}  round trip {:6.2f} {:6.2f}  processor "
       "{:6.2f} {:6.2f} ms  {:4.1f} kB  largest error {:.1f} cm\n",
       id, figure, node, server.Percentile(0.5), server.Percentile(0.99), round_trip.Percentile(0.5),
-      round_trip.Percentile(0.99), solver.Percentile(0.5), solver.Percentile(0.99),
+      round_trip.Percentile(0.99), cpu.Percentile(0.5), cpu.Percentile(0.99),
       static_cast<double>(page->bytes) / 1000, 100 * error_m);
-  return server.Percentile(0.99) <= kBarMs;
+  return {server.Percentile(0.99), cpu.Percentile(0.99)};
 }
 
 int Run(int steps) {
@@ -122,7 +128,7 @@ int Run(int steps) {
   StudioServer server(&routes, "");
   server.Bind(0);
   std::thread serving([&] { server.Run(); });
-  bool met = true;
+  Drag worst;
   {
     PageClient page(server);
     fmt::print("{} steps each; median and 99th percentile\n", steps);
@@ -130,14 +136,20 @@ int Run(int steps) {
       for (const auto& [figure, node] :
            {std::pair("b", "head_top"), std::pair("a", "left_elbow"), std::pair("a", "head_top"),
             std::pair("b", "root"), std::pair("b", "left_hand"), std::pair("a", "right_knee")}) {
-        met = DragRound(&page, entry["id"], figure, node, steps) && met;
+        const Drag drag = DragRound(&page, entry["id"], figure, node, steps);
+        worst.server_ms = std::max(worst.server_ms, drag.server_ms);
+        worst.cpu_ms = std::max(worst.cpu_ms, drag.cpu_ms);
       }
     }
   }
   server.Stop();
   serving.join();
-  fmt::print("30 updates a second at the 99th percentile: {}\n", met ? "met" : "MISSED");
-  return met ? 0 : 1;
+  const auto verdict = [](double ms) { return ms <= kBarMs ? "met" : "MISSED"; };
+  fmt::print(
+      "30 updates a second at the 99th percentile of the worst drag: {} ({:.1f} ms; on an idle "
+      "processor {}, {:.1f} ms)\n",
+      verdict(worst.server_ms), worst.server_ms, verdict(worst.cpu_ms), worst.cpu_ms);
+  return worst.server_ms <= kBarMs ? 0 : 1;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSeconds = 10.5;
 
-// The template's joint rotations of the carried, to a degree.
+// The template's joint rotations of the carried, to a degree; the right arm is held off the leg.
 const Vec3 kLeftArm(-52, -76, -14);
 const Vec3 kLeftForeArm(23, -30, 6);
 const Vec3 kLeftHand(0, 7, -9);
@@ -74,7 +74,7 @@ Posture Carrier(const Actor& actor, const Walk& walk, double t) {
   ArmPosture& left = p.arms[kLeft];
   left.shrug_deg = -3 + 2.5 * r(20) + 3 * effort;
   left.protraction_deg = 1 + 3 * r(21) + 4 * swing;
-  const Vec3 free(0.33 + 0.01 * r(22), -0.27, 0.20 + 0.13 * swing), knee(0.19, -0.09, 0.46);
+  const Vec3 free(0.33 + 0.01 * r(22), -0.27, 0.20 + 0.13 * swing), knee(0.20, -0.06, 0.47);
   left.knuckles = free + kneeling * (knee - free) + 0.012 * Vec3(0, r(23), r(24));
   left.pointing = Vec3(-0.15, -0.75, 0.6 + 0.2 * swing);
   left.palm = Vec3(-0.99 + 0.8 * kneeling, 0.13 - 0.9 * kneeling, -0.09);
@@ -102,14 +102,14 @@ LimpPosture Carried(double t) {
              {"LeftArm", kLeftArm + Vec3(5 * slack(20), 6 * slack(21), 7 * slack(22))},
              {"LeftForeArm", kLeftForeArm + Vec3(0, 7 * slack(23), 0)},
              {"LeftHand", kLeftHand + Vec3(0, 6 * slack(24), 8 * slack(25))},
-             {"RightArm", kRightArm + Vec3(2 * r(26), 2 * r(27), 2 * r(28))},
-             {"RightForeArm", kRightForeArm + Vec3(0, 3 * r(29), 0)},
+             {"RightArm", kRightArm + Vec3(2 * r(26), -6 + 1.5 * r(27), 1.5 * r(28))},
+             {"RightForeArm", kRightForeArm + Vec3(0, -8 + 2 * r(29), 0)},
              {"RightHand", kRightHand + Vec3(0, 5 * r(30), 4 * r(31))},
              {"LeftUpLeg", kLeftUpLeg + Vec3(4 * slack(32), 3 * slack(33), 3 * slack(34))},
              {"LeftLeg", kLeftLeg + Vec3(7 * slack(35) + 6 * groan, 0, 0)},
              {"LeftFoot", kLeftFoot + Vec3(6 * slack(36), 0, 0)},
-             {"RightUpLeg", kRightUpLeg + Vec3(2 * slack(37), 2 * slack(38), 2 * slack(39))},
-             {"RightLeg", kRightLeg + Vec3(4 * slack(40) + 4 * groan, 0, 0)},
+             {"RightUpLeg", kRightUpLeg + Vec3(1.5 * slack(37), 1.5 * slack(38), 1.5 * slack(39))},
+             {"RightLeg", kRightLeg + Vec3(2 * slack(40) + 3 * groan, 0, 0)},
              {"RightFoot", kRightFoot + Vec3(6 * slack(41), 0, 0)}};
   return p;
 }

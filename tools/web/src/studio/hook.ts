@@ -1,7 +1,7 @@
 // For tests and for curious people at the console.
 
 import type { FigureName } from "../shared/figure_scene";
-import type { State } from "./protocol";
+import type { Op, State } from "./protocol";
 import type { Sender } from "./sender";
 import type { Store, Ui } from "./store";
 import type { ViewName } from "./view";
@@ -14,6 +14,8 @@ interface StudioHandle {
   state(): State;
   // Where a node is on the page (CSS px), in a view.
   project(figure: FigureName, node: string, view?: ViewName): { x: number; y: number } | null;
+  // Operations, as the controls send them: one step of the history. True where the server took it.
+  do(...ops: Op[]): Promise<boolean>;
   // When no request is under way and the page shows what came.
   idle(): Promise<void>;
 }
@@ -35,6 +37,7 @@ export function exposeHook(store: Store, sender: Sender, viewport: Viewport): vo
       return store.ui;
     },
     state: () => store.state,
+    do: (...ops) => sender.do(...ops),
     project(figure, node, name = "main") {
       const view = viewport.views.find((v) => v.name === name)!;
       return view.project(store.place({ figure, node: store.findNode(figure, node) }));
