@@ -65,7 +65,7 @@ async function open({ path = pagePath, from = browser, ...options } = {}) {
     const url = request.url();
     if (url !== pathToFileURL(path).href && !url.startsWith("data:")) noise.push(`request: ${url}`);
   });
-  await page.goto(pathToFileURL(path).href);
+  await page.goto(pathToFileURL(path).href, { timeout: 120000 });
   await page.waitForFunction(() => window.retargetReport?.ready, null, { timeout: 60000 });
   return { page, noise };
 }

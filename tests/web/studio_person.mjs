@@ -91,7 +91,7 @@ export async function restart() {
 }
 
 async function open() {
-  await page.goto(url);
+  await page.goto(url, { timeout: 120000 });
   await until(() => Boolean(window.retargetStudio));
   await idle();
 }

@@ -38,15 +38,16 @@ export function shadowMaterial(): MeshBasicMaterial {
   return material;
 }
 
-// Cells of half a metre, each edge a line of its own: software renderers drop lines that pass the
-// camera.
+const kCell = 0.5; // m
+
+// Each edge of a cell is a line of its own: software renderers drop lines that pass the camera.
 function gridGeometry(): BufferGeometry {
-  const [cell, half] = [0.5, 16];
+  const half = 16; // cells; fog hides what is further away
   const points: number[] = [];
   for (let i = -half; i <= half; ++i) {
     for (let k = -half; k < half; ++k) {
-      points.push(i * cell, 0, k * cell, i * cell, 0, (k + 1) * cell);
-      points.push(k * cell, 0, i * cell, (k + 1) * cell, 0, i * cell);
+      points.push(i * kCell, 0, k * kCell, i * kCell, 0, (k + 1) * kCell);
+      points.push(k * kCell, 0, i * kCell, (k + 1) * kCell, 0, i * kCell);
     }
   }
   return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
@@ -56,6 +57,7 @@ export interface Surroundings {
   floor: Mesh;
   grid: LineSegments;
   dress(): void; // takes the colours of the theme
+  centre(x: number, z: number): void; // the grid goes with who looks, by whole cells
 }
 
 // Lights, floor and grid.
@@ -79,5 +81,7 @@ export function surround(scene: Scene): Surroundings {
     (floor.material as MeshBasicMaterial).color = ground;
     lines.color.set(themeColour("--stage-grid"));
   };
-  return { floor, grid, dress };
+  const centre = (x: number, z: number) =>
+    void grid.position.set(kCell * Math.round(x / kCell), 0, kCell * Math.round(z / kCell));
+  return { floor, grid, dress, centre };
 }

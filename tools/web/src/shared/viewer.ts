@@ -4,21 +4,18 @@
 import { PerspectiveCamera, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { FigureScene } from "./figure_scene";
-import { pixelRatio, surround } from "./surroundings";
+import { pixelRatio, surround, type Surroundings } from "./surroundings";
 import { onThemeChange, themeColour } from "./theme";
 
 interface Stage {
   figures: FigureScene;
   element: HTMLElement; // where on the page
-  dress: () => void; // takes the colours of the theme
+  surroundings: Surroundings;
 }
 
-function dress(figures: FigureScene): () => void {
-  const surroundings = surround(figures.scene);
-  return () => {
-    surroundings.dress();
-    figures.shadowColour(themeColour("--stage-shadow"));
-  };
+function dress({ figures, surroundings }: Stage): void {
+  surroundings.dress();
+  figures.shadowColour(themeColour("--stage-shadow"));
 }
 
 export const views = {
@@ -69,7 +66,7 @@ export class Viewer {
       if (this.visible) this.invalidate();
     }).observe(container);
     onThemeChange(() => {
-      for (const stage of this.stages) stage.dress();
+      this.stages.forEach(dress);
       this.drawNow();
     });
   }
@@ -80,8 +77,8 @@ export class Viewer {
   }
 
   add(figures: FigureScene, element: HTMLElement): void {
-    const stage = { figures, element, dress: dress(figures) };
-    stage.dress();
+    const stage = { figures, element, surroundings: surround(figures.scene) };
+    dress(stage);
     this.stages.push(stage);
     this.invalidate();
   }
@@ -134,7 +131,8 @@ export class Viewer {
     renderer.setScissor(0, 0, width, height);
     renderer.clear();
     const frame = container.getBoundingClientRect();
-    for (const { figures, element } of this.stages) {
+    const { target } = this.controls;
+    for (const { figures, element, surroundings } of this.stages) {
       const box = element.getBoundingClientRect();
       const [w, h] = [box.width, box.height];
       if (w === 0 || h === 0) continue;
@@ -145,6 +143,7 @@ export class Viewer {
       camera.aspect = w / h;
       camera.fov = w / h < 1 ? 30 / Math.max(0.5, w / h) : 30;
       camera.updateProjectionMatrix();
+      surroundings.centre(target.x, target.z);
       renderer.render(figures.scene, camera);
     }
   }

@@ -190,6 +190,7 @@ export class Viewport {
     const main = view === this.main;
     const picture = main && !this.photo.hidden;
     const { grid } = this.surroundings;
+    this.surroundings.centre(view.controls.target.x, view.controls.target.z);
     grid.visible = view.name === "main" || view.name === "top";
     const lines = grid.material as LineBasicMaterial;
     lines.opacity = picture ? 0.3 : 1;
