@@ -50,10 +50,6 @@ before(async () => {
     executablePath: chromiumPath,
     args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
   });
-  const size = pictures ? { width: 1280, height: 720 } : { width: 1060, height: 620 };
-  page = await browser.newPage({ viewport: size });
-  page.on("console", (message) => noise.push(`${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => noise.push(`error: ${error.message}`));
 });
 after(async () => {
   await browser?.close();
@@ -146,6 +142,16 @@ function* steps(words) {
 
 // -- The page ----------------------------------------------------------------------------------------
 
+// A page of its own for every hold: nothing is left of the one before.
+async function open() {
+  await page?.context().close();
+  const size = pictures ? { width: 1280, height: 720 } : { width: 1060, height: 620 };
+  page = await (await browser.newContext({ viewport: size })).newPage();
+  page.on("console", (message) => noise.push(`${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => noise.push(`error: ${error.message}`));
+  await page.goto(url, { timeout: 120000 });
+}
+
 // The page's policy forbids what page.waitForFunction does.
 async function until(holds) {
   for (let tries = 0; tries < 600; ++tries) {
@@ -161,10 +167,7 @@ const shapeOf = (yaml) => yaml.replace(/-?\d+(\.\d+)?(e-?\d+)?/g, "#");
 
 for (const hold of ["full_nelson", "rear_choke", "piggyback"]) {
   test(`${hold}: made from an empty scene`, async () => {
-    await page.goto("about:blank");
-    await page.goto(url);
-    await page.evaluate(() => sessionStorage.clear());
-    await page.goto(url);
+    await open();
     await until(() => Boolean(window.retargetStudio));
     await page.evaluate(() => window.retargetStudio.idle());
     const ops = [...steps(wordsOf(hold))];
