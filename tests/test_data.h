@@ -31,7 +31,7 @@ inline std::string ReadWholeFile(const std::string& path) {
 }  // namespace retarget
 
 // Skips (CTest counts it) where the shared reference data are not there.
-#define SKIP_WITHOUT_SHARED_DATA()                                               \
-  if (!std::filesystem::exists(retarget::SharedPath("golden/README.md"))) {      \
-    GTEST_SKIP() << "no shared reference data at " << RETARGET_SHARED_DIR;       \
+#define SKIP_WITHOUT_SHARED_DATA()                                          \
+  if (!std::filesystem::exists(retarget::SharedPath("golden/README.md"))) { \
+    GTEST_SKIP() << "no shared reference data at " << RETARGET_SHARED_DIR;  \
   }

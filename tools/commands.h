@@ -28,7 +28,7 @@ struct RetargetOptions {
   std::vector<std::string> set;
   std::string show = "figures";  // of scene.glb: "figures" or "characters"
   double fps = 30, template_at = 0;
-  int threads = -1;  // -1: as configured
+  int threads = -1;                // -1: as configured
   std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines
   bool json = false, force = false;
   bool quiet = false;  // says nothing of the result

@@ -1,5 +1,5 @@
-// rig_turn: no edit that the figure's own rig cannot make. A joint of one or two axes (Acclaim files,
-// some BVH) turns within them, else the solved motion could not be written back.
+// rig_turn: no edit that the figure's own rig cannot make. A joint of one or two axes (Acclaim
+// files, some BVH) turns within them, else the solved motion could not be written back.
 //   r = d . delta    (rad), d each direction that the joint cannot turn in at the captured pose
 // 1 frame, 1 body. YAML: weights.rig_turn.
 #pragma once

@@ -119,8 +119,7 @@ TEST(SettingsFileTest, FormatExplainsEveryKey) {
   EXPECT_NE(text.find("  backend: banded  # default banded: linear algebra of the clip's solve "
                       "(banded|ceres)\n"),
             std::string::npos);
-  EXPECT_NE(text.find("  stages: \"0.1 1\"  # default 0.1 1: "),
-            std::string::npos);
+  EXPECT_NE(text.find("  stages: \"0.1 1\"  # default 0.1 1: "), std::string::npos);
 }
 
 TEST(SettingsFileTest, RefusesBadTexts) {

@@ -1,12 +1,11 @@
 // The metrics on hand-made motions whose values follow from a ruler.
-#include "solver/requirements.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
 #include "model/so3.h"
+#include "solver/requirements.h"
 #include "tests/solver/scene_fixture.h"
 
 namespace retarget {

@@ -182,7 +182,8 @@ TEST(Simulation, WithoutControlTheFiguresFall) {
   EXPECT_NE(result.message.find("fell at frame"), std::string::npos) << result.message;
 }
 
-// The control pulls a standing figure along its clip, but its feet are nailed to the floor for good.
+// The control pulls a standing figure along its clip, but its feet are nailed to the floor for
+// good.
 TEST(Simulation, AFigureThatCannotFollowItsMotionHasStrayed) {
   Scene scene = StandingApart(60);
   for (int t = 0; t < 60; ++t) scene.source[1].frames[t].root_position.z() += 0.04 * t;
