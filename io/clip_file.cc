@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/gltf_container.h"
+#include "io/gltf/container.h"
 
 namespace retarget {
 namespace {

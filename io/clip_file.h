@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "io/acclaim.h"
-#include "io/bvh.h"
-#include "io/gltf_clip.h"
+#include "io/acclaim/acclaim.h"
+#include "io/bvh/bvh.h"
+#include "io/gltf/clip.h"
 
 namespace retarget {
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/clip_file.h"
-#include "io/gltf_container.h"
-#include "io/printable.h"
+#include "io/gltf/container.h"
+#include "io/text/printable.h"
 
 namespace retarget {
 namespace {

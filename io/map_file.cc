@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "io/map_joints.h"
-#include "io/nearest_name.h"
-#include "io/recognise.h"
-#include "io/yaml_message.h"
-#include "io/yaml_reader.h"
-#include "model/rig_tree.h"
+#include "io/recognition/map_joints.h"
+#include "io/recognition/recognise.h"
+#include "io/text/nearest_name.h"
+#include "io/text/yaml_message.h"
+#include "io/text/yaml_reader.h"
+#include "model/rig/tree.h"
 
 namespace retarget {
 namespace {

@@ -1,11 +1,11 @@
 // Map files: which bone of a rig plays which joint, written by hand or by `retarget map --yaml`
-// (docs/map_format.md). The reader is strict: see io/yaml_reader.h.
+// (docs/map_format.md). The reader is strict: see io/text/yaml_reader.h.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "model/rig.h"
+#include "model/rig/rig.h"
 
 namespace retarget {
 

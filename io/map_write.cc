@@ -5,11 +5,11 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "io/joint_profiles.h"
 #include "io/map_file.h"
-#include "io/map_joints.h"
-#include "io/printable.h"
-#include "io/yaml_reader.h"
+#include "io/recognition/joint_profiles.h"
+#include "io/recognition/map_joints.h"
+#include "io/text/printable.h"
+#include "io/text/yaml_reader.h"
 
 namespace retarget {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/nearest_name.h"
-#include "io/yaml_reader.h"
+#include "io/text/nearest_name.h"
+#include "io/text/yaml_reader.h"
 
 namespace retarget {
 namespace {

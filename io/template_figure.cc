@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/template_keys.h"
-#include "model/so3.h"
+#include "model/geometry/so3.h"
 
 namespace retarget {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "io/yaml_reader.h"
-#include "model/body.h"
-#include "model/pose.h"
+#include "io/text/yaml_reader.h"
+#include "model/body/body.h"
+#include "model/body/pose.h"
 
 namespace retarget {
 

@@ -10,7 +10,7 @@
 
 #include "io/template_figure.h"
 #include "io/template_keys.h"
-#include "io/yaml_reader.h"
+#include "io/text/yaml_reader.h"
 
 namespace retarget {
 namespace {

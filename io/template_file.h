@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "model/template_posture.h"
+#include "model/body/template_posture.h"
 
 namespace retarget {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/body.h"
+#include "model/body/body.h"
 
 namespace retarget {
 

@@ -10,8 +10,8 @@
 
 #include "io/template_file.h"
 #include "io/template_keys.h"
-#include "io/yaml_reader.h"
-#include "model/so3.h"
+#include "io/text/yaml_reader.h"
+#include "model/geometry/so3.h"
 
 namespace retarget {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
-#include "solver/measure.h"
-#include "solver/requirements.h"
-#include "solver/start.h"
+#include "solver/metrics/metrics.h"
+#include "solver/metrics/requirements.h"
+#include "solver/start/start.h"
 
 namespace retarget {
 namespace {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "model/settings.h"
-#include "solver/fit_template.h"
-#include "solver/placement.h"
+#include "solver/optimizer/spacetime.h"
 #include "solver/simulation/simulation.h"
-#include "solver/spacetime.h"
+#include "solver/start/fit_template.h"
+#include "solver/start/placement.h"
 
 namespace retarget {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "model/body.h"
-#include "model/pose.h"
-#include "model/rig.h"
-#include "model/so3.h"
+#include "model/body/body.h"
+#include "model/body/pose.h"
+#include "model/geometry/so3.h"
+#include "model/rig/rig.h"
 
 namespace retarget {
 

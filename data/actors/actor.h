@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "data/actors/gait.h"
-#include "model/body.h"
-#include "model/so3.h"
-#include "model/types.h"
+#include "model/body/body.h"
+#include "model/geometry/so3.h"
+#include "model/geometry/types.h"
 
 namespace retarget {
 

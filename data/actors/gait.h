@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/so3.h"
-#include "model/types.h"
+#include "model/geometry/so3.h"
+#include "model/geometry/types.h"
 
 namespace retarget {
 

@@ -5,7 +5,7 @@
 #include <initializer_list>
 
 #include "data/actors/gait.h"
-#include "model/types.h"
+#include "model/geometry/types.h"
 
 namespace retarget {
 

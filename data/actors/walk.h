@@ -17,7 +17,7 @@
 
 #include "data/actors/actor.h"
 #include "data/actors/gait.h"
-#include "model/types.h"
+#include "model/geometry/types.h"
 
 namespace retarget {
 

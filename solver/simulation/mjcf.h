@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/body.h"
+#include "model/body/body.h"
 
 namespace retarget {
 

@@ -5,14 +5,14 @@
 #include <memory>
 #include <vector>
 
-#include "model/pose.h"
+#include "model/body/pose.h"
 #include "solver/simulation/mjcf.h"
 
 namespace retarget {
 
 // Forces act between BeginStep and EndStep and are forgotten after. The figures' joint rotations
-// are those of model/pose.h; angular velocities and torques of a joint are in the link's own axes.
-// The same calls give the same motion, bit for bit.
+// are those of model/body/pose.h; angular velocities and torques of a joint are in the link's own
+// axes. The same calls give the same motion, bit for bit.
 class PhysicsWorld {
  public:
   PhysicsWorld(const std::vector<PhysicsFigure>& figures, const std::vector<Tie>& ties,

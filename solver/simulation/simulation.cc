@@ -5,14 +5,15 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "model/path.h"
-#include "model/so3.h"
-#include "solver/guard.h"
-#include "solver/meeting.h"
+#include "model/body/pass_through.h"
+#include "model/body/path.h"
+#include "model/geometry/polyline.h"
+#include "model/geometry/so3.h"
+#include "solver/optimizer/spacetime.h"
+#include "solver/problem/root_drift.h"
+#include "solver/problem/terms/tracking.h"
 #include "solver/simulation/physics_world.h"
 #include "solver/simulation/tangle_force.h"
-#include "solver/spacetime.h"
-#include "solver/terms/tracking.h"
 
 namespace retarget {
 namespace {

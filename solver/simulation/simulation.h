@@ -12,7 +12,7 @@
 #include <string>
 
 #include "model/settings.h"
-#include "solver/scene.h"
+#include "solver/problem/scene.h"
 
 namespace retarget {
 

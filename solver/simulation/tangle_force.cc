@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "model/capsule.h"
-#include "model/path.h"
+#include "model/body/path.h"
+#include "model/geometry/capsule.h"
+#include "model/geometry/polyline.h"
 
 namespace retarget {
 namespace {

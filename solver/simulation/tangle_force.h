@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "model/settings.h"
-#include "solver/scene.h"
+#include "solver/problem/scene.h"
 #include "solver/simulation/physics_world.h"
 
 namespace retarget {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "model/types.h"
+#include "model/geometry/types.h"
 #include "tests/test_data.h"
 
 namespace retarget {

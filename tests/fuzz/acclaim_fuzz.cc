@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tests/io/acclaim_damage.h"
+#include "tests/io/acclaim/acclaim_damage.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tests/io/bvh_damage.h"
+#include "tests/io/bvh/bvh_damage.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   retarget::ReadsOrRefuses(std::string(reinterpret_cast<const char*>(data), size));

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <string>
 
-#include "io/gltf_clip.h"
+#include "io/gltf/clip.h"
 
 namespace retarget {
 namespace {

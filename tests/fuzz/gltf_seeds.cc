@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "tests/io/gltf_maker.h"
+#include "tests/io/gltf/gltf_maker.h"
 
 namespace retarget {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "io/template_file.h"
-#include "tools/message.h"
-#include "tools/pose_edit.h"
-#include "tools/pose_json.h"
-#include "tools/studio_image.h"
+#include "io/text/message.h"
+#include "tools/posing/edit.h"
+#include "tools/posing/json.h"
+#include "tools/studio/image.h"
 
 namespace retarget {
 namespace {

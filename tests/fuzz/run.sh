@@ -12,8 +12,7 @@ if ! command -v clang++ >/dev/null; then
   echo "fuzz: install clang and libclang-rt-14-dev" >&2
   exit 1
 fi
-cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
-  -DRETARGET_FUZZ=ON -DRETARGET_TESTS=OFF >/dev/null
+cmake --preset fuzz -G Ninja >/dev/null
 cmake --build build/fuzz --target fuzz
 ((${#targets[@]})) || for source in tests/fuzz/*_fuzz.cc; do
   targets+=("$(basename "$source" .cc)")

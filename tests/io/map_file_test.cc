@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/recognise.h"
+#include "io/recognition/recognise.h"
 #include "tests/rig_figure.h"
 
 namespace retarget {

@@ -11,7 +11,7 @@
 #include <random>
 #include <type_traits>
 
-#include "model/types.h"
+#include "model/geometry/types.h"
 
 namespace retarget {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <random>
 
-#include "model/so3.h"
+#include "model/geometry/so3.h"
 #include "tests/test_data.h"
 
 namespace retarget {

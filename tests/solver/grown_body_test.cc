@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "solver/measure.h"
-#include "solver/spacetime.h"
-#include "solver/start.h"
+#include "solver/metrics/metrics.h"
+#include "solver/optimizer/spacetime.h"
+#include "solver/start/start.h"
 #include "tests/solver/scene_fixture.h"
 
 namespace retarget {

@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "model/so3.h"
-#include "solver/fit_template.h"
-#include "solver/scene.h"
+#include "model/geometry/so3.h"
+#include "solver/problem/scene.h"
+#include "solver/start/fit_template.h"
 
 namespace retarget {
 

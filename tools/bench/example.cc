@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/load_clip.h"
 #include "io/template_file.h"
 #include "tools/bench/ping_pong.h"
-#include "tools/load_clip.h"
 
 namespace retarget {
 

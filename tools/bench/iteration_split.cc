@@ -8,10 +8,10 @@
 #include <tuple>
 #include <vector>
 
-#include "solver/banded.h"
-#include "solver/guard.h"
-#include "solver/normal_equations.h"
-#include "solver/spacetime.h"
+#include "model/body/pass_through.h"
+#include "solver/optimizer/banded.h"
+#include "solver/optimizer/normal_equations.h"
+#include "solver/optimizer/spacetime.h"
 
 namespace retarget {
 namespace {

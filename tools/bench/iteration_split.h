@@ -1,7 +1,7 @@
 // What one iteration of the banded solve spends its time on.
 #pragma once
 
-#include "solver/problem.h"
+#include "solver/problem/problem.h"
 
 namespace retarget {
 

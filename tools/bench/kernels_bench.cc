@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "io/template_file.h"
-#include "model/capsule.h"
-#include "model/gli.h"
-#include "model/tangle.h"
-#include "solver/kernels.h"
-#include "solver/terms/tangle.h"
+#include "model/body/tangle.h"
+#include "model/geometry/capsule.h"
+#include "model/geometry/gli.h"
+#include "model/geometry/polyline.h"
+#include "solver/optimizer/kernels.h"
+#include "solver/problem/terms/tangle.h"
 #include "tools/bench/multiply.h"
 
 namespace retarget {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "model/types.h"
-#include "solver/kernels.h"
-#include "solver/spacetime.h"
+#include "model/geometry/types.h"
+#include "solver/optimizer/kernels.h"
+#include "solver/optimizer/spacetime.h"
 
 #define RETARGET_DECLARE_MULTIPLY(isa) \
   extern "C" void retarget_multiply_##isa(const double*, const double*, int, int, int, double*);

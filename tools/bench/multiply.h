@@ -1,5 +1,5 @@
-// A dense matrix product at the instruction set that solver/kernels.h chose on this machine. An
-// elimination that did nothing else would run at this rate.
+// A dense matrix product at the instruction set that solver/optimizer/kernels.h chose on this
+// machine. An elimination that did nothing else would run at this rate.
 #pragma once
 
 namespace retarget {

@@ -1,5 +1,5 @@
-// The body of tools/bench/multiply.h, compiled once per instruction set; see solver/kernels_impl.h
-// for why no other header may be used here.
+// The body of tools/bench/multiply.h, compiled once per instruction set; see
+// solver/optimizer/kernels_impl.h for why no other header may be used here.
 #include <Eigen/Core>
 
 #define RETARGET_CONCAT_(a, b) a##b

@@ -4,9 +4,9 @@
 #include <cstring>
 #include <exception>
 
-#include "io/bvh.h"
+#include "io/bvh/bvh.h"
+#include "io/files.h"
 #include "tools/bench/ping_pong.h"
-#include "tools/files.h"
 
 namespace retarget {
 namespace {

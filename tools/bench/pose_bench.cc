@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "io/template_file.h"
-#include "solver/pose_solve.h"
+#include "solver/optimizer/pose_solve.h"
 
 namespace retarget {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "solver/kernels.h"
-#include "solver/parallel.h"
+#include "solver/optimizer/kernels.h"
+#include "solver/problem/parallel.h"
 #include "tools/bench/example.h"
 #include "tools/bench/in_child.h"
 #include "tools/bench/iteration_split.h"

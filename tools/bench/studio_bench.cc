@@ -16,7 +16,7 @@
 #include <optional>
 #include <thread>
 
-#include "tools/studio_server.h"
+#include "tools/studio/server.h"
 
 namespace retarget {
 namespace {

@@ -1,5 +1,5 @@
 # Builds the pages of tools/web and makes them part of retarget_tools.
-set(WEB_DIR ${CMAKE_SOURCE_DIR}/tools/web)
+set(WEB_DIR ${PROJECT_SOURCE_DIR}/tools/web)
 set(EMBEDDED_FILES ${WEB_DIR}/src/shared/theme.css ${WEB_DIR}/src/report/report.css)
 set(EMBEDDED_DEFINITIONS RETARGET_THEME_CSS="${WEB_DIR}/src/shared/theme.css"
                          RETARGET_REPORT_CSS="${WEB_DIR}/src/report/report.css")
@@ -19,7 +19,7 @@ if(RETARGET_STUDIO)
                         "-DRETARGET_STUDIO=OFF builds without studio and players")
   endif()
   # A copy is built, so that the source tree stays clean.
-  set(WEB_BUILD ${CMAKE_BINARY_DIR}/web)
+  set(WEB_BUILD ${PROJECT_BINARY_DIR}/web)
   set(WEB_INSTALLED ${WEB_BUILD}/installed)
   set(WEB_PAGES ${WEB_BUILD}/dist/report.html ${WEB_BUILD}/dist/studio.html)
   file(GLOB_RECURSE WEB_SOURCES CONFIGURE_DEPENDS ${WEB_DIR}/src/*)
@@ -44,6 +44,7 @@ else()
   message(STATUS "RETARGET_STUDIO is OFF: no studio, and report.html has no players")
 endif()
 
-set_source_files_properties(tools/embedded_page.cc PROPERTIES
+set_source_files_properties(${PROJECT_SOURCE_DIR}/tools/report/embedded_page.cc
+                            TARGET_DIRECTORY retarget_tools PROPERTIES
                             OBJECT_DEPENDS "${EMBEDDED_FILES}"
                             COMPILE_DEFINITIONS "${EMBEDDED_DEFINITIONS}")

@@ -1,0 +1,265 @@
+#include "io/gltf/skeleton.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "io/gltf/node.h"
+
+namespace retarget {
+namespace {
+
+using Eigen::Matrix4d;
+
+constexpr double kUniform = 1e-3;  // relative difference of scales that is only rounding
+
+double Mean(const Vec3& scale) { return scale.sum() / 3; }
+
+bool IsUniform(const Vec3& scale) {
+  return (scale.array() - Mean(scale)).abs().maxCoeff() <= kUniform * std::abs(Mean(scale));
+}
+
+Matrix4d MatrixOf(const GltfTransform& t) {
+  Matrix4d m = Matrix4d::Identity();
+  m.topLeftCorner<3, 3>() = t.rotation.toRotationMatrix() * t.scale.asDiagonal();
+  m.topRightCorner<3, 1>() = t.translation;
+  return m;
+}
+
+class SkeletonBuilder {
+ public:
+  SkeletonBuilder(const LoadedGltf& gltf, const std::vector<int>& skins, const GltfTracks& tracks,
+                  GltfAccessors* accessors, GltfClip* clip)
+      : gltf_(gltf), model_(gltf.model), tracks_(tracks), clip_(*clip) {
+    for (const int skin : skins) {
+      const tinygltf::Skin& s = model_.skins[skin];
+      const std::vector<Matrix4d> inverse =
+          InverseBindMatrices(model_, skin, accessors, clip->name);
+      for (size_t j = 0; j < s.joints.size(); ++j) {
+        seeds_.insert(s.joints[j]);
+        if (s.inverseBindMatrices >= 0 && std::abs(inverse[j].determinant()) > 1e-18) {
+          bind_[s.joints[j]].push_back({skin, inverse[j].inverse()});
+        }
+      }
+    }
+  }
+
+  void Build(const std::vector<int>& humanoid) {
+    seeds_.insert(humanoid.begin(), humanoid.end());
+    const bool bare = seeds_.empty();
+    Choose(bare);
+    const size_t count = model_.nodes.size();
+    joint_of_node_.assign(count, -1);
+    frame_.resize(count);
+    for (const int n : gltf_.order) {
+      if (chosen_[n]) {
+        AddJoint(n);
+      } else if (leads_[n]) {
+        frame_[n] = FrameBelow(n);
+      }
+    }
+    NameJoints();
+    NoteScales();
+  }
+
+ private:
+  // How what hangs from a node is laid into the rig: p = origin + turn (stretch .* t).
+  struct Frame {
+    Vec3 origin = Vec3::Zero();
+    Quat turn = Quat::Identity();
+    Vec3 stretch = Vec3::Ones();
+  };
+  struct Bind {
+    int skin;
+    Matrix4d matrix;
+  };
+
+  bool IsMoved(int node) const {
+    return tracks_.translation.contains(node) || tracks_.rotation.contains(node);
+  }
+
+  // The seeds (without any: what is moved), moved nodes above and below them, all between, and the
+  // meshless branches below.
+  void Choose(bool bare) {
+    const size_t count = model_.nodes.size();
+    std::vector<bool> has_mesh(count), below(count);
+    leads_.assign(count, false);
+    chosen_.assign(count, false);
+    for (auto it = gltf_.order.rbegin(); it != gltf_.order.rend(); ++it) {
+      const int n = *it, parent = gltf_.parent[n];
+      const bool seed = bare ? IsMoved(n) : seeds_.contains(n);
+      leads_[n] = leads_[n] || seed;
+      has_mesh[n] = has_mesh[n] || model_.nodes[n].mesh >= 0;
+      chosen_[n] = seed || (leads_[n] && IsMoved(n));
+      if (parent < 0) continue;
+      leads_[parent] = leads_[parent] || leads_[n];
+      has_mesh[parent] = has_mesh[parent] || has_mesh[n];
+    }
+    for (const int n : gltf_.order) {
+      const int parent = gltf_.parent[n];
+      below[n] = parent >= 0 && (below[parent] || chosen_[parent]);
+    }
+    std::vector<bool> carries = leads_;  // a seed or something that moves
+    for (auto it = gltf_.order.rbegin(); it != gltf_.order.rend(); ++it) {
+      const int n = *it, parent = gltf_.parent[n];
+      carries[n] = carries[n] || (below[n] && IsMoved(n));
+      if (below[n] && (carries[n] || !has_mesh[n])) chosen_[n] = true;
+      if (parent >= 0) carries[parent] = carries[parent] || carries[n];
+    }
+  }
+
+  void AddJoint(int n) {
+    const int up = gltf_.parent[n];
+    const int parent = up >= 0 ? joint_of_node_[up] : -1;
+    joint_of_node_[n] = clip_.motion.rig.num_joints();
+    const GltfTransform own = TransformOf(model_, n, clip_.name);
+    GltfJoint joint;
+    joint.node = n;
+    joint.rest_translation = own.translation;
+    joint.rest_rotation = own.rotation;
+    joint.rest_scale = own.scale;
+    joint.scale = ScaleOf(n, own.scale);
+    joint.has_translation_track = tracks_.translation.contains(n);
+    if (parent >= 0) {
+      // Below an uneven scale the mean goes on: exact for the children, which is what occurs.
+      joint.stretch = Mean(clip_.joints[parent].stretch) * clip_.joints[parent].scale;
+    } else if (up >= 0) {
+      joint.origin = frame_[up].origin;
+      joint.turn = frame_[up].turn;
+      joint.stretch = frame_[up].stretch;
+    }
+    RigJoint out;
+    out.name = model_.nodes[n].name;
+    out.parent = parent;
+    out.translates = joint.has_translation_track;
+    const GltfTransform rest = Rest(n, parent, own);
+    out.offset = joint.origin + joint.turn * joint.stretch.cwiseProduct(rest.translation);
+    out.rest_rotation = (joint.turn * rest.rotation).normalized();
+    clip_.motion.rig.joints.push_back(out);
+    clip_.joints.push_back(joint);
+  }
+
+  // Of a node above the roots, which is folded into them.
+  Frame FrameBelow(int n) {
+    const int up = gltf_.parent[n];
+    const Frame above = up >= 0 ? frame_[up] : Frame();
+    const GltfTransform t = TransformOf(model_, n, clip_.name);
+    const Vec3 scale = ScaleOf(n, t.scale);
+    if (!IsUniform(scale)) ++uneven_scales_;
+    Frame out;
+    out.origin = above.origin + above.turn * above.stretch.cwiseProduct(t.translation);
+    out.turn = (above.turn * t.rotation).normalized();
+    out.stretch = Mean(above.stretch) * scale;
+    return out;
+  }
+
+  // In the animation: a constant track's, else the node's own.
+  Vec3 ScaleOf(int n, const Vec3& own) {
+    Vec3 scale = own;
+    const auto track = tracks_.scale.find(n);
+    if (track != tracks_.scale.end()) {
+      constexpr double kSteady = 1e-3;
+      if (!track->second.IsConstant(kSteady)) ++animated_scales_;
+      scale = Vec3::Map(track->second.Key(0));
+    }
+    if (scale.minCoeff() < 0) {
+      throw InputError(
+          fmt::format("{}: nodes[{}]: a negative scale mirrors the rig below it", clip_.name, n));
+    }
+    return scale;
+  }
+
+  // The pose that the skin was bound in, where it is known and differs from the nodes' own: a file
+  // may show its character in any other pose.
+  GltfTransform Rest(int n, int parent, const GltfTransform& own) {
+    constexpr double kTurned = 0.1 * kDegree, kMoved = 1e-3;  // rad, share of the length
+    if (parent < 0 || !bind_.contains(gltf_.parent[n])) return own;
+    const std::vector<Bind>& above = bind_[gltf_.parent[n]];
+    if (!bind_.contains(n)) {
+      for (const Bind& bind : above) {
+        bind_[n].push_back({bind.skin, bind.matrix * MatrixOf(own)});
+      }
+      return own;
+    }
+    // Skins may have been bound in different spaces: both matrices must be of one.
+    const std::vector<Bind>& at = bind_[n];
+    const auto upper =
+        std::find_first_of(above.begin(), above.end(), at.begin(), at.end(),
+                           [](const Bind& a, const Bind& b) { return a.skin == b.skin; });
+    if (upper == above.end()) return own;
+    const auto lower = std::find_if(at.begin(), at.end(),
+                                    [&](const Bind& bind) { return bind.skin == upper->skin; });
+    const Matrix4d local = upper->matrix.inverse() * lower->matrix;
+    Mat3 axes = local.topLeftCorner<3, 3>();
+    for (int c = 0; c < 3; ++c) {
+      if (!(axes.col(c).norm() > 1e-9)) return own;
+      axes.col(c).normalize();
+    }
+    constexpr double kSquare = 0.01;
+    const double skew = (axes.transpose() * axes - Mat3::Identity()).cwiseAbs().maxCoeff();
+    if (!(skew < kSquare) || axes.determinant() < 0) return own;
+    GltfTransform bound = own;
+    bound.translation = local.topRightCorner<3, 1>();
+    bound.rotation = Quat(axes).normalized();
+    if (!bound.translation.allFinite()) return own;
+    const bool same = bound.rotation.angularDistance(own.rotation) < kTurned &&
+                      (bound.translation - own.translation).norm() <=
+                          kMoved * std::max(own.translation.norm(), bound.translation.norm());
+    return same ? own : bound;
+  }
+
+  // Nameless joints get their node's index for a name, and so do later ones of the same name.
+  void NameJoints() {
+    std::set<std::string> taken;
+    for (const RigJoint& joint : clip_.motion.rig.joints) taken.insert(joint.name);
+    std::set<std::string> seen;
+    for (int j = 0; j < clip_.motion.rig.num_joints(); ++j) {
+      std::string& name = clip_.motion.rig.joints[j].name;
+      if (!name.empty() && seen.insert(name).second) continue;
+      const std::string base = name.empty() ? "joint" : name;
+      name = fmt::format("{}_{}", base, clip_.joints[j].node);
+      while (!taken.insert(name).second) name += "_";
+    }
+  }
+
+  void NoteScales() {
+    for (size_t j = 0; j < clip_.joints.size(); ++j) {
+      const bool leaf = model_.nodes[clip_.joints[j].node].children.empty();
+      if (!leaf && !IsUniform(clip_.joints[j].scale)) ++uneven_scales_;
+    }
+    if (uneven_scales_ > 0) {
+      clip_.notes.push_back(
+          fmt::format("{} nodes are scaled unevenly: what hangs below their children is not exact",
+                      uneven_scales_));
+    }
+    if (animated_scales_ > 0) {
+      clip_.notes.push_back(fmt::format(
+          "{} nodes change their scale: the first key's is used throughout", animated_scales_));
+    }
+  }
+
+  const LoadedGltf& gltf_;
+  const tinygltf::Model& model_;
+  const GltfTracks& tracks_;
+  GltfClip& clip_;
+  std::set<int> seeds_;
+  std::map<int, std::vector<Bind>> bind_;  // by node, in each skin's space
+  std::vector<bool> chosen_;               // [nodes]
+  std::vector<bool> leads_;                // [nodes] to a seed
+  std::vector<Frame> frame_;               // [nodes] of those above the rig
+  std::vector<int> joint_of_node_;
+  int uneven_scales_ = 0, animated_scales_ = 0;
+};
+
+}  // namespace
+
+void BuildSkeleton(const LoadedGltf& gltf, const std::vector<int>& skins,
+                   const std::vector<int>& humanoid, const GltfTracks& tracks,
+                   GltfAccessors* accessors, GltfClip* clip) {
+  SkeletonBuilder(gltf, skins, tracks, accessors, clip).Build(humanoid);
+}
+
+}  // namespace retarget

@@ -1,0 +1,192 @@
+#include "io/load_clip.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "io/files.h"
+#include "io/map_file.h"
+
+namespace retarget {
+namespace {
+
+// A measured capsule is believed between these shares of the tabulated one.
+constexpr double kThinnest = 0.6, kThickest = 1.5;
+
+LoadedClip ReadClip(const ClipOptions& options) {
+  LoadedClip clip;
+  clip.options = options;
+  ClipPath path = ParseClipPath(options.path);
+  path.select.any_animation = options.any_animation;
+  clip.file = ReadClipFile(path, options.amc_fps);
+  clip.hash = HashOf(clip.file.bytes);
+  return clip;
+}
+
+// What the options, the map file and the format say, in this order.
+RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& file) {
+  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map};
+  if (!options.map.empty()) {
+    MapFile map = ReadMap(options.map, file.motion.rig);
+    if (map.metres_per_unit) recognise.metres_per_unit = map.metres_per_unit;
+    if (map.up) recognise.up = map.up;
+    recognise.map = std::move(map.map);
+  }
+  if (!options.units.empty()) {
+    recognise.metres_per_unit = ParseUnits(options.units);
+    if (!recognise.metres_per_unit) {
+      throw InputError(fmt::format("--units-{} {}: expected cm, m, mm, in, cmu or metres per unit",
+                                   options.option, options.units));
+    }
+  }
+  if (!options.up.empty()) recognise.up = options.up[0];
+  return recognise;
+}
+
+void Bind(LoadedClip* clip) {
+  const int chest = ChestBone(clip->file.motion, clip->facts.map);
+  try {
+    clip->binding =
+        std::make_unique<RigBinding>(clip->file.motion, clip->facts, chest, clip->options.stature);
+  } catch (const InputError& error) {
+    throw InputError(clip->options.path + ": " + error.what());
+  }
+  clip->body = clip->binding->body();
+}
+
+// Capsule radii from the skin of a glTF character: of every segment the radius of the bone that it
+// lies along.
+void TakeRadiiFromSkin(LoadedClip* clip) {
+  const auto* gltf = std::get_if<GltfClip>(&clip->file.original);
+  if (gltf == nullptr) return;
+  const std::vector<double> radii = BoneRadii(*gltf);
+  const RigBinding& binding = *clip->binding;
+  for (int n = 1; n < clip->body.num_nodes(); ++n) {
+    Node& node = clip->body.nodes[n];
+    const int bone = binding.JointAtNode(node.parent);
+    // The pelvis' skin is round the hips, not round the lines to the legs.
+    if (bone < 0 || node.link == 0 || radii[bone] <= 0) continue;
+    node.radius = std::clamp(radii[bone] * binding.stature_ratio(), kThinnest * node.radius,
+                             kThickest * node.radius);
+    clip->skin_radii = true;
+  }
+}
+
+double LegLength(const Body& body) {
+  double sum = 0;
+  for (const char* side : {"left", "right"}) {
+    for (const char* node : {"_knee", "_ankle"}) {
+      sum += body.SegmentLength(body.FindNode(side + std::string(node)));
+    }
+  }
+  return sum / 2;
+}
+
+// The character with the motion of `clip`.
+LoadedClip OnCharacter(LoadedClip clip) {
+  LoadedClip hero;
+  hero.options = clip.options;
+  ClipPath path = ParseClipPath(clip.options.character);
+  path.select.at_rest = true;
+  hero.file = ReadClipFile(path);
+  hero.hash = HashOf(hero.file.bytes);
+  hero.motion_hash = clip.hash;
+  hero.motion_facts = clip.facts;
+  ClipOptions options = clip.options;
+  options.path = clip.options.character;
+  options.map = clip.options.character_map;
+  options.units = options.up = "";
+  RigMotion& motion = hero.file.motion;
+  motion.frames.resize(1);
+  hero.facts = Recognise(motion, RecogniseOptionsOf(options, hero.file), options.path);
+  hero.facts.notes.insert(hero.facts.notes.begin(), hero.file.notes.begin(), hero.file.notes.end());
+  hero.options.path = options.path;
+  Bind(&hero);
+  hero.options.path = clip.options.path;
+
+  const RigFrame rest = motion.frames[0];
+  const double scale = LegLength(hero.body) / LegLength(clip.body);
+  motion.frames.clear();
+  motion.frame_time = clip.file.motion.frame_time;
+  for (const RigFrame& frame : clip.file.motion.frames) {
+    Pose pose = clip.binding->PoseOf(frame);
+    pose.root_position *= scale;
+    RigFrame applied = hero.binding->Apply(rest, pose);
+    // As a file of the character's own size would have it.
+    for (Vec3& t : applied.translation) t /= hero.binding->stature_ratio();
+    motion.frames.push_back(std::move(applied));
+  }
+  // The keys are no longer those of an animation that the file may have.
+  if (auto* gltf = std::get_if<GltfClip>(&hero.file.original)) gltf->key_times.clear();
+  return hero;
+}
+
+}  // namespace
+
+Clip LoadedClip::Resampled(double fps, int first, int last) const {
+  Clip clip;
+  clip.fps = fps;
+  for (int k = first; k < last; ++k) {
+    clip.frames.push_back(binding->PoseOf(SampleRig(file.motion, options.start + k / fps)));
+  }
+  return clip;
+}
+
+std::vector<std::vector<StiffTurn>> LoadedClip::StiffTurns(double fps, int first, int last) const {
+  std::vector<std::vector<StiffTurn>> stiff;
+  bool any = false;
+  for (int k = first; k < last; ++k) {
+    stiff.push_back(binding->StiffTurnsOf(SampleRig(file.motion, options.start + k / fps)));
+    any = any || !stiff.back().empty();
+  }
+  return any ? stiff : std::vector<std::vector<StiffTurn>>();
+}
+
+std::string MapOfClip(const ClipOptions& options) {
+  const ClipFile file = ReadClip(options).file;
+  const RecogniseOptions recognise = RecogniseOptionsOf(options, file);
+  try {
+    return FormatMap(file.motion, Recognise(file.motion, recognise, options.path));
+  } catch (const InputError& refusal) {
+    return FormatMapDraft(file.motion, refusal.what());
+  }
+}
+
+LoadedClip RecogniseClip(const ClipOptions& options) {
+  LoadedClip clip = ReadClip(options);
+  RigMotion& motion = clip.file.motion;
+  clip.facts = Recognise(motion, RecogniseOptionsOf(options, clip.file), options.path);
+  clip.facts.notes.insert(clip.facts.notes.begin(), clip.file.notes.begin(), clip.file.notes.end());
+  if (options.skip_frames >= motion.num_frames()) {
+    throw InputError(fmt::format("--skip-frames-{} {}: {} has only {} frames", options.option,
+                                 options.skip_frames, options.path, motion.num_frames()));
+  }
+  motion.frames.erase(motion.frames.begin(), motion.frames.begin() + options.skip_frames);
+  return clip;
+}
+
+LoadedClip LoadClip(const ClipOptions& options) {
+  ClipOptions own = options;
+  if (!options.character.empty()) own.stature = 0;  // the character's is meant
+  LoadedClip clip = RecogniseClip(own);
+  if (!clip.file.has_motion) {
+    throw InputError(fmt::format(
+        "{}: is a character without animation, expected a motion; to put another clip's motion on "
+        "it: --character-{} {}",
+        options.path, options.option, options.path));
+  }
+  Bind(&clip);
+  if (options.start > clip.duration() + 1e-9) {
+    throw InputError(fmt::format("--start-{} {}: {} is only {:.3f} s long", options.option,
+                                 options.start, options.path, clip.duration()));
+  }
+  if (!options.character.empty()) {
+    clip.options.stature = options.stature;
+    clip = OnCharacter(std::move(clip));
+  }
+  TakeRadiiFromSkin(&clip);
+  return clip;
+}
+
+}  // namespace retarget

@@ -1,0 +1,58 @@
+// From a motion file to a clip of the body: read, recognise, bind, resample.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "io/clip_file.h"
+#include "io/recognition/recognise.h"
+#include "model/rig/binding.h"
+
+namespace retarget {
+
+struct ClipOptions {
+  std::string path;            // as ParseClipPath takes it
+  std::string option;          // "a" or "b": which options messages name
+  double start = 0;            // s into the clip
+  double stature = 0;          // m, 0: the clip's own
+  std::string units;           // as given, empty: as the file says, or guess
+  std::string up;              // "y", "z", empty: as the file says, or guess
+  std::string map;             // path of a joint map, empty: guess
+  bool any_animation = false;  // of several, none of them selected, the first
+  int skip_frames = 0;         // dropped from the beginning
+  double amc_fps = 120;        // of Acclaim motions, which do not say
+  std::string character;       // path of a character that takes over the motion, empty: none
+  std::string character_map;   // joint map of the character
+};
+
+struct LoadedClip {
+  ClipOptions options;
+  ClipFile file;  // without the skipped frames; of the character, where there is one
+  RigFacts facts;
+  std::unique_ptr<RigBinding> binding;
+  Body body;                // the binding's, with the radii of the character's skin
+  bool skin_radii = false;  // whether there is a skin
+  std::string hash;         // of the files' bytes
+  // Of a character: whose motion it has taken over.
+  std::optional<RigFacts> motion_facts;
+  std::string motion_hash;
+
+  double duration() const {  // s from the first to the last frame
+    return (file.motion.num_frames() - 1) * file.motion.frame_time;
+  }
+  // Poses at start + k / fps for output frames k in [first, last).
+  Clip Resampled(double fps, int first, int last) const;
+  // The same frames: turns that the rig cannot make; empty where it can make all.
+  std::vector<std::vector<StiffTurn>> StiffTurns(double fps, int first, int last) const;
+};
+
+// Reads, recognises and binds; where the options name a character, its body takes over the motion:
+// the same joint rotations, the root's path scaled by the length of the legs. Throws InputError.
+LoadedClip LoadClip(const ClipOptions& options);
+// Reads and recognises only.
+LoadedClip RecogniseClip(const ClipOptions& options);
+// The clip's joint map as a file to edit: a draft where the figure is refused.
+std::string MapOfClip(const ClipOptions& options);
+
+}  // namespace retarget

@@ -1,0 +1,127 @@
+// Recognition; the files that it includes do its parts.
+#include "io/recognition/recognise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "io/recognition/joint_profiles.h"
+#include "io/recognition/map_joints.h"
+#include "io/recognition/rig_check.h"
+#include "io/recognition/rig_measure.h"
+#include "io/recognition/rig_units.h"
+#include "io/recognition/t_pose.h"
+#include "io/text/printable.h"
+
+namespace retarget {
+namespace {
+
+// --- Which joint is which ---
+
+std::string Quoted(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) {
+    out += (out.empty() ? "'" : ", '") + Printable(name) + "'";
+  }
+  return out;
+}
+
+// Every refusal ends with the way out.
+[[noreturn]] void RefuseFigure(const std::string& file, const std::string& why) {
+  throw InputError(
+      fmt::format("{}: no human figure: {}; to map it by hand: {}", file, why, MapByHand(file)));
+}
+
+std::string MissingJoints(const Rig& rig, const NameMatch& match) {
+  constexpr size_t kShown = 4;
+  std::string missing;
+  for (size_t n = 0; n < std::min(kShown, match.missing.size()); ++n) {
+    missing += (n > 0 ? ", " : "") + match.missing[n];
+  }
+  if (match.missing.size() > kShown) {
+    missing += fmt::format(" and {} more", match.missing.size() - kShown);
+  }
+  return fmt::format("nothing plays {} (nearest convention '{}'); the names nearest to {} are {}",
+                     missing, match.map.profile, match.missing.front(),
+                     Quoted(NearestNames(rig, match.missing.front(), match.map.profile)));
+}
+
+// The limb that two readings of the names give to different joints.
+[[noreturn]] void RefuseTie(const Rig& rig, const JointMap& a, const JointMap& b,
+                            const std::string& file) {
+  using Side = JointMap::Side;
+  constexpr std::pair<const char*, int Side::*> kLimbs[] = {{"shoulder", &Side::shoulder},
+                                                            {"elbow", &Side::elbow},
+                                                            {"hip", &Side::hip},
+                                                            {"knee", &Side::knee}};
+  for (const auto& [side, name] :
+       {std::pair(&JointMap::left, "left"), {&JointMap::right, "right"}}) {
+    for (const auto& [part, joint] : kLimbs) {
+      const int first = a.*side.*joint, second = b.*side.*joint;
+      if (first == second) continue;
+      RefuseFigure(file, fmt::format("{}_{} may be '{}' (as '{}' has it) or '{}' (as '{}' has it)",
+                                     name, part, Printable(rig.joints[first].name), a.profile,
+                                     Printable(rig.joints[second].name), b.profile));
+    }
+  }
+  RefuseFigure(file, "its names can be read in two ways");
+}
+
+JointMap FindJoints(const RigMotion& motion, const std::string& file, RigFacts* facts) {
+  const Rig& rig = motion.rig;
+  const auto [match, rival] = MatchBestProfile(rig);
+  if (match.complete()) {
+    if (rival) RefuseTie(rig, match.map, rival->map, file);
+    facts->confidence = match.share;
+    for (const std::string& bone : match.ignored) {
+      facts->notes.push_back("'" + Printable(bone) + "' hangs where no human has it: left out");
+    }
+    if (match.figures > 1) {
+      facts->notes.push_back(fmt::format(
+          "the file holds {} figures with the same names: the first one is read", match.figures));
+    }
+    return match.map;
+  }
+  ShapeMatch shape = MatchShape(rig, SamplePoses(motion));
+  if (shape.map) {
+    facts->confidence = 0;
+    facts->notes.push_back(
+        "the joint names follow no known convention: joints were told by shape alone");
+    return *shape.map;
+  }
+  constexpr int kFewest = 9;  // joints: a root and four limbs of two
+  if (rig.num_joints() < kFewest) {
+    RefuseFigure(file, fmt::format("it has {} joint{}, a human at least {}", rig.num_joints(),
+                                   rig.num_joints() == 1 ? "" : "s", kFewest));
+  }
+  if (!shape.refusal.empty()) RefuseFigure(file, shape.refusal);
+  if (!match.missing.empty()) RefuseFigure(file, MissingJoints(rig, match));
+  RefuseFigure(file, fmt::format("its names follow '{}', but {}", match.map.profile,
+                                 Printable(match.misplaced.front())));
+}
+
+}  // namespace
+
+RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
+                   const std::string& file_name) {
+  if (motion.frames.empty() || motion.rig.joints.empty()) {
+    throw InputError(file_name + ": no frames of any joint, expected a motion");
+  }
+  RigFacts facts;
+  facts.map = options.map ? *options.map : FindJoints(motion, file_name, &facts);
+  const Figure figure(motion, facts.map);
+  FindUnit(FigureHeight(figure), options, file_name, &facts);
+  FindUp(figure, options, file_name, &facts);
+  CheckFigure(figure, &facts);
+  facts.t_pose_frames = TPoseFrames(motion, figure.points, UpAxis(facts));
+  NoteTPose(motion, figure.points, &facts);
+  return facts;
+}
+
+}  // namespace retarget

@@ -1,0 +1,33 @@
+// Lengths and directions of a figure over some poses of its motion. Inner part of
+// io/recognition/recognise.h.
+#pragma once
+
+#include <vector>
+
+#include "model/rig/points.h"
+#include "model/rig/rig.h"
+
+namespace retarget {
+
+// A mapped rig with the poses that it is measured in.
+struct Figure {
+  Figure(const RigMotion& motion, const JointMap& joint_map);
+
+  const Rig* rig;  // of the motion
+  JointMap map;
+  std::vector<PosedRig> poses;
+  RigPoints points;
+};
+
+Vec3 MidAnkle(const PosedRig& pose, const RigPoints& points);
+
+// The pose that stands most upright: neck and ankles farthest apart.
+const PosedRig& StandingPose(const Figure& figure);
+
+// Ground to vertex of the straightened figure, in file units.
+double FigureHeight(const Figure& figure);
+
+// Where both feet point, by toe joints or the ends of the ankles; zero where neither is there.
+Vec3 FeetDirection(const PosedRig& pose, const RigPoints& points);
+
+}  // namespace retarget

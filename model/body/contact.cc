@@ -1,0 +1,66 @@
+#include "model/body/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace retarget {
+namespace {
+
+constexpr double kTimeSlack = 1e-4;  // s; rates such as 1/0.033333 do not cut a run short
+
+double FifthPercentile(std::vector<double> values) {
+  const size_t k = static_cast<size_t>(std::floor(0.05 * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(k), values.end());
+  return values[k];
+}
+
+std::vector<bool> PlantedFrames(const std::vector<Vec3>& p, double fps,
+                                const ContactSettings& settings) {
+  const int n = static_cast<int>(p.size());
+  std::vector<double> heights;
+  for (const Vec3& x : p) heights.push_back(x.y());
+  const double ceiling = FifthPercentile(heights) + settings.height;
+  std::vector<bool> planted(p.size());
+  for (int k = 0; k < n; ++k) {
+    const int before = std::max(k - 1, 0), after = std::min(k + 1, n - 1);
+    const double speed =
+        after > before ? (p[after] - p[before]).norm() * fps / (after - before) : 0;
+    planted[k] = speed < settings.speed && p[k].y() <= ceiling;
+  }
+  return planted;
+}
+
+}  // namespace
+
+std::vector<Contact> DetectContacts(const Body& body, const Clip& clip,
+                                    const std::vector<int>& supports,
+                                    const ContactSettings& settings) {
+  std::vector<std::vector<Vec3>> position(supports.size());
+  PosedBody posed;
+  for (const Pose& pose : clip.frames) {
+    PoseBody(body, pose, &posed);
+    for (size_t s = 0; s < supports.size(); ++s) position[s].push_back(posed.node[supports[s]]);
+  }
+  std::vector<Contact> contacts;
+  for (size_t s = 0; s < supports.size(); ++s) {
+    const std::vector<bool> planted = PlantedFrames(position[s], clip.fps, settings);
+    std::vector<Contact> runs;
+    for (int k = 0; k < clip.num_frames(); ++k) {
+      if (!planted[k]) continue;
+      const int gap = runs.empty() ? 0 : k - runs.back().last - 1;
+      const bool joins = !runs.empty() && (gap == 0 || gap / clip.fps < settings.max_gap_s);
+      if (joins) {
+        runs.back().last = k;
+      } else {
+        runs.push_back({supports[s], k, k});
+      }
+    }
+    for (const Contact& run : runs) {
+      const double length = (run.last - run.first + 1) / clip.fps;
+      if (length >= settings.min_length_s - kTimeSlack) contacts.push_back(run);
+    }
+  }
+  return contacts;
+}
+
+}  // namespace retarget

@@ -1,0 +1,41 @@
+// The rotation group SO(3): exponential, logarithm and their right Jacobian.
+// Convention, everywhere: a rotation is perturbed on the right, R exp([v]x), v in R^3 (rad) in the
+// rotated frame. (Sola, Deray, Atchuthan, "A micro Lie theory", 2018, Eq. 132-145.)
+#pragma once
+
+#include "model/geometry/types.h"
+
+namespace retarget {
+
+// [v]x, the matrix with [v]x w = v x w.
+inline Mat3 Skew(const Vec3& v) {
+  Mat3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+// exp: rotation vector (rad) to unit quaternion.
+Quat ExpSo3(const Vec3& v);
+
+// log: unit quaternion to the rotation vector of length at most pi (rad).
+Vec3 LogSo3(const Quat& q);
+
+// J_r(v): exp(v + dv) = exp(v) exp(J_r(v) dv) to first order. [3 x 3]
+Mat3 RightJacobian(const Vec3& v);
+
+// J_r(v)^-1: log(exp(v) exp(w)) = v + J_r(v)^-1 w to first order. [3 x 3]
+Mat3 RightJacobianInverse(const Vec3& v);
+
+// The smallest rotation that turns unit vector `from` onto unit vector `to`. Opposite vectors turn
+// about an axis that depends on `from` alone.
+Quat RotationBetween(const Vec3& from, const Vec3& to);
+
+// The part of `q` about the unit axis `axis`: q = swing * twist. Identity where `q` turns the axis
+// by half a turn and the twist is undefined.
+Quat TwistAbout(const Quat& q, const Vec3& axis);
+
+// The turn about the vertical (rad) that best agrees with `q`.
+double YawOf(const Quat& q);
+Quat YawRotation(double yaw);
+
+}  // namespace retarget

@@ -1,0 +1,145 @@
+// The way back: a posture of the body onto the bones of a rig.
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "model/geometry/so3.h"
+#include "model/rig/binding.h"
+#include "model/rig/standard_links.h"
+
+namespace retarget {
+namespace {
+
+// The turn of `upper` that brings the end of lower + upper to `distance` from its beginning, in the
+// plane of the two (about `axis` where they are in line); as near as their lengths allow.
+Quat BendToDistance(const Vec3& lower, const Vec3& upper, double distance, const Vec3& axis) {
+  const double a = lower.norm(), b = upper.norm();
+  if (a < 1e-6 || b < 1e-6) return Quat::Identity();
+  const Vec3 normal = lower.cross(upper);
+  const Vec3 about = normal.norm() > 1e-6 * a * b ? Vec3(normal.normalized()) : axis;
+  // Angle between the two directions: |lower + upper|^2 = a^2 + b^2 + 2 a b cos(angle).
+  const double cosine = (distance * distance - a * a - b * b) / (2 * a * b);
+  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double now = std::acos(std::clamp(lower.dot(upper) / (a * b), -1.0, 1.0));
+  return Quat(Eigen::AngleAxisd(angle - now, about));
+}
+
+}  // namespace
+
+Pose RigBinding::PoseOf(const RigFrame& frame) const {
+  const World world = ToWorld(frame);
+  const std::vector<Quat> rotation = LinkRotations(world);
+  Pose pose;
+  pose.root_position = world.position[map_.root];
+  pose.rotation.resize(kNumLinks);
+  pose.rotation[0] = rotation[0];
+  for (int l = 1; l < kNumLinks; ++l) {
+    pose.rotation[l] = (rotation[body_.links[l].parent].conjugate() * rotation[l]).normalized();
+  }
+  return pose;
+}
+
+std::vector<Vec3> RigBinding::JointPositions(const RigFrame& frame) const {
+  return ToWorld(frame).position;
+}
+
+// The spine bones carry the chest to where the waist link has it. The first of them need not stand
+// at the root, so turning them all by the waist's edit leaves the chest a little off: a turn about
+// the first one brings it into line, and a bend at the second takes up the difference in distance,
+// as far as it exceeds what is not worth bending a spine for.
+void RigBinding::SpreadOverSpine(const World& captured, const std::vector<Quat>& edit,
+                                 const Vec3& root_position, std::vector<Quat>* rotation) const {
+  const Vec3& root = captured.position[map_.root];
+  const Vec3& first = captured.position[spine_group_.front()];
+  const Vec3 chest = PointIn(captured, points_.chest);
+  const Vec3 pivot = root_position + edit[kRoot] * (first - root);
+  const Vec3 target = root_position + edit[kWaist] * (chest - root);
+  Vec3 reached = edit[kWaist] * (chest - first);  // from the pivot
+  Quat bend = Quat::Identity();
+  if (spine_group_.size() > 1) {
+    const Vec3 lower = edit[kWaist] * (captured.position[spine_group_[1]] - first);
+    const Vec3 upper = reached - lower;
+    const double distance = std::clamp((target - pivot).norm(), reached.norm() - kSpineSlack,
+                                       reached.norm() + kSpineSlack);
+    const double excess = (target - pivot).norm() - distance;
+    if (excess != 0) {
+      bend = BendToDistance(lower, upper, reached.norm() + excess, edit[kRoot] * Vec3::UnitX());
+      reached = lower + bend * upper;
+    }
+  }
+  Quat turn = Quat::Identity();
+  if (reached.norm() > 1e-6 && (target - pivot).norm() > 1e-6) {
+    turn = RotationBetween(reached.normalized(), (target - pivot).normalized());
+  }
+  for (size_t k = 0; k < spine_group_.size(); ++k) {
+    const int bone = spine_group_[k];
+    (*rotation)[bone] =
+        turn * (k > 0 ? bend : Quat::Identity()) * edit[kWaist] * captured.rotation[bone];
+  }
+}
+
+RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
+  const World world = ToWorld(captured);
+  const std::vector<Quat> before = LinkRotations(world);
+  std::vector<Quat> edit(kNumLinks), after(kNumLinks);
+  for (int l = 0; l < kNumLinks; ++l) {
+    after[l] = l == 0 ? solved.rotation[0] : after[body_.links[l].parent] * solved.rotation[l];
+    edit[l] = after[l] * before[l].conjugate();
+  }
+  std::vector<Quat> rotation(rig_.joints.size());
+  RigFrame out = captured;
+  for (size_t j = 0; j < rig_.joints.size(); ++j) {
+    const int parent = rig_.joints[j].parent;
+    const Quat above = parent < 0 ? up_ : rotation[parent];
+    const int link = link_of_bone_[j];
+    if (link == kWaist) {
+      if (static_cast<int>(j) == spine_group_.front()) {
+        SpreadOverSpine(world, edit, solved.root_position, &rotation);
+      }
+    } else {
+      rotation[j] = link >= 0 ? edit[link] * world.rotation[j] : above * captured.rotation[j];
+    }
+    rotation[j].normalize();
+    out.rotation[j] = (above.conjugate() * rotation[j]).normalized();
+    out.translation[j] = ratio_ * captured.translation[j];
+  }
+  TurnTwistHelpers(captured, &out);
+  // The root goes where it was solved to, moved by the joint that the file moves.
+  int mover = map_.root;
+  while (!rig_.joints[mover].translates && rig_.joints[mover].parent >= 0) {
+    mover = rig_.joints[mover].parent;
+  }
+  const double own_scale = scale_ / ratio_;
+  const PosedRig posed = PoseRig(rig_, out);
+  const Vec3 target = up_.conjugate() * solved.root_position / own_scale;
+  const int above = rig_.joints[mover].parent;
+  const Quat turn = above < 0 ? Quat::Identity() : posed.rotation[above];
+  out.translation[mover] += turn.conjugate() * (target - posed.position[map_.root]);
+  return out;
+}
+
+std::vector<StiffTurn> RigBinding::StiffTurnsOf(const RigFrame& frame) const {
+  std::vector<StiffTurn> stiff;
+  for (int l = 1; l < body_.num_links(); ++l) {
+    const int bone = link_[l].bone;
+    const bool shared =
+        std::find(spine_group_.begin(), spine_group_.end(), bone) != spine_group_.end();
+    if (bone < 0 || shared || body_.links[l].locked || rig_.joints[bone].turns_freely) continue;
+    // R exp(w) = A_1 ... A_n exp(w): the last axis stays as it is, the one before it has been
+    // turned by the last, and so on; with two axes, A_2^T a_1 = R^T a_1.
+    const std::vector<Vec3>& axes = rig_.joints[bone].turn_axes;
+    std::vector<Vec3> free;
+    if (!axes.empty()) free.push_back(axes.back());
+    if (axes.size() == 2) free.push_back(frame.rotation[bone].conjugate() * axes[0]);
+    Eigen::Matrix<double, 3, Eigen::Dynamic> span(3, std::max<size_t>(free.size(), 1));
+    span.setZero();
+    for (size_t k = 0; k < free.size(); ++k) span.col(static_cast<long>(k)) = free[k];
+    const Eigen::JacobiSVD<MatX> svd(span, Eigen::ComputeFullU);
+    for (long k = static_cast<long>(free.size()); k < 3; ++k) {
+      stiff.push_back({l, link_[l].turn.conjugate() * Vec3(svd.matrixU().col(k))});
+    }
+  }
+  return stiff;
+}
+
+}  // namespace retarget

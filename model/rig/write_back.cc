@@ -1,0 +1,62 @@
+#include "model/rig/write_back.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/geometry/so3.h"
+
+namespace retarget {
+
+EditCurve::EditCurve(const Clip& before, const Clip& after) : fps_(before.fps) {
+  for (int t = 0; t < before.num_frames(); ++t) {
+    const Pose& p = before.frames[t];
+    const Pose& q = after.frames[t];
+    std::vector<Vec3> edit = {q.root_position - p.root_position};
+    for (size_t l = 0; l < p.rotation.size(); ++l) {
+      edit.push_back(LogSo3(p.rotation[l].conjugate() * q.rotation[l]));
+    }
+    edit_.push_back(std::move(edit));
+  }
+}
+
+Pose EditCurve::Apply(const Pose& pose, double time) const {
+  const int last = static_cast<int>(edit_.size()) - 1;
+  const double at = std::clamp(time * fps_, 0.0, static_cast<double>(last));
+  const int k = std::min(static_cast<int>(at), std::max(last - 1, 0));
+  const double u = at - k;
+  const std::vector<Vec3>& p0 = edit_[std::max(k - 1, 0)];
+  const std::vector<Vec3>& p1 = edit_[k];
+  const std::vector<Vec3>& p2 = edit_[std::min(k + 1, last)];
+  const std::vector<Vec3>& p3 = edit_[std::min(k + 2, last)];
+  const auto value = [&](size_t i) -> Vec3 {
+    const Vec3 m1 = 0.5 * (p2[i] - p0[i]), m2 = 0.5 * (p3[i] - p1[i]);
+    const double u2 = u * u, u3 = u2 * u;
+    return (2 * u3 - 3 * u2 + 1) * p1[i] + (u3 - 2 * u2 + u) * m1 + (3 * u2 - 2 * u3) * p2[i] +
+           (u3 - u2) * m2;
+  };
+  Pose out = pose;
+  out.root_position += value(0);
+  for (size_t l = 0; l < pose.rotation.size(); ++l) {
+    out.rotation[l] = pose.rotation[l] * ExpSo3(value(l + 1));
+  }
+  return out;
+}
+
+RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double start,
+                    const std::function<Pose(const Pose&)>& place, const Clip& source,
+                    const Clip& solved) {
+  const EditCurve edit(source, solved);
+  const double span = (source.num_frames() - 1) / source.fps;
+  const int keys = static_cast<int>(std::floor(span / captured.frame_time + 1e-6)) + 1;
+  RigMotion out;
+  out.rig = captured.rig;
+  out.frame_time = captured.frame_time;
+  for (int i = 0; i < keys; ++i) {
+    const double time = i * captured.frame_time;
+    const RigFrame frame = SampleRig(captured, start + time);
+    out.frames.push_back(binding.Apply(frame, edit.Apply(place(binding.PoseOf(frame)), time)));
+  }
+  return out;
+}
+
+}  // namespace retarget

@@ -1,2 +1,0 @@
-#define RETARGET_KERNEL avx512
-#include "solver/kernels_impl.h"

@@ -1,2 +1,0 @@
-#define RETARGET_KERNEL portable
-#include "solver/kernels_impl.h"

@@ -1,0 +1,93 @@
+#include "solver/metrics/diagnosis.h"
+
+#include <algorithm>
+#include <map>
+
+#include "solver/metrics/diagnosis_text.h"
+
+namespace retarget {
+namespace {
+
+// The part of the objective that works for a requirement.
+bool WorksFor(const RequirementCheck& check, const Scene& scene, const Pull& pull) {
+  if (pull.term != check.term) return false;
+  if (check.item >= 0) return pull.item == check.item;
+  if (check.term != "foot_lock") return true;
+  const LimbNode& limb = check.limbs[0];
+  const AnchoredContact anchored = ContactOfAnchor(scene, pull.item);
+  return anchored.figure == limb.figure && anchored.contact.node == limb.node;
+}
+
+}  // namespace
+
+Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
+                        const RequirementCheck& check) {
+  Opposition out;
+  const Scene& scene = problem.scene();
+  if (check.frame < 0 || check.limbs.empty()) return out;
+  const int first = std::max(0, check.frame - kConflictReach);
+  const int last = std::min(scene.num_frames(), check.frame + kConflictReach + 1);
+  const std::vector<Pull> pulls =
+      PullsOn(problem, unknowns, first, last, CoordinatesOf(scene, check.limbs));
+  VecX own;
+  for (const Pull& pull : pulls) {
+    if (!WorksFor(check, scene, pull)) continue;
+    own = own.size() == 0 ? pull.gradient : VecX(own + pull.gradient);
+  }
+  if (own.size() == 0 || own.isZero(0)) return out;
+  out.pull = own.norm();
+  const auto share_of = [&](const VecX& g) { return -g.dot(own) / own.squaredNorm(); };
+  std::map<std::string, VecX> by_term;  // the others
+  for (const Pull& pull : pulls) {
+    if (WorksFor(check, scene, pull)) continue;
+    const auto [at, is_new] = by_term.try_emplace(pull.term, pull.gradient);
+    if (!is_new) at->second += pull.gradient;
+    out.unopposed -= share_of(pull.gradient);
+  }
+  for (const auto& [term, gradient] : by_term) {
+    if (gradient.isZero(0)) continue;
+    out.shares.push_back(
+        {term, share_of(gradient), gradient.dot(own) / (gradient.norm() * own.norm())});
+  }
+  if (out.shares.empty()) return out;
+  std::stable_sort(out.shares.begin(), out.shares.end(),
+                   [](const auto& s, const auto& t) { return s.share > t.share; });
+  double most = 0;
+  for (const Pull& pull : pulls) {
+    if (pull.term != out.shares[0].term || pull.item < 0 || WorksFor(check, scene, pull)) continue;
+    if (share_of(pull.gradient) <= most) continue;
+    most = share_of(pull.gradient);
+    out.item = pull.item;
+  }
+  return out;
+}
+
+std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unknowns,
+                                    const MeasureSubject& subject, const Metrics& metrics,
+                                    const std::vector<RequirementCheck>& checks) {
+  std::vector<Conflict> conflicts;
+  for (const RequirementCheck& check : checks) {
+    if (check.met) continue;
+    // The share of deep frames says nothing that the deepest does not.
+    const bool told = check.name == kDeepFrames && !conflicts.empty() &&
+                      conflicts.back().requirement == "penetration";
+    if (told) continue;
+    Conflict conflict;
+    conflict.requirement = check.name;
+    conflict.frame = check.frame;
+    for (const LimbNode& limb : check.limbs) {
+      conflict.limbs.push_back(LimbName(subject.body, limb));
+    }
+    const Opposition opposition = OppositionTo(problem, unknowns, check);
+    if (!check.term.empty()) conflict.terms.push_back(check.term);
+    if (opposition.opposed()) {
+      conflict.terms.push_back(opposition.shares[0].term);
+      conflict.cosine = opposition.shares[0].cosine;
+    }
+    conflict.sentence = ConflictSentence({problem, unknowns, subject, metrics, check, opposition});
+    conflicts.push_back(conflict);
+  }
+  return conflicts;
+}
+
+}  // namespace retarget

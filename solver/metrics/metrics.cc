@@ -1,0 +1,219 @@
+#include "solver/metrics/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "model/body/path.h"
+#include "model/geometry/so3.h"
+
+namespace retarget {
+namespace {
+
+constexpr double kDeep = 0.01;        // m
+constexpr double kSlideSpeed = 0.01;  // m/s
+
+// The metrics are extremes, shares and means of the series.
+class Measurement {
+ public:
+  Measurement(const MeasureSubject& subject, const FrameSeries& series,
+              const std::vector<NodePositions>& source)
+      : subject_(subject), series_(series), frames_(series.node), source_frames_(source) {}
+
+  Metrics Run() {
+    MeasureTangles();
+    MeasureExtremes();
+    out_.pass_throughs = series_.pass_throughs;
+    for (int f = 0; f < 2; ++f) {
+      MeasureFeet(f);
+      MeasureEdit(f);
+    }
+    MeasureJerk();
+    return out_;
+  }
+
+ private:
+  void MeasureTangles() {
+    const double none = std::numeric_limits<double>::max();
+    out_.tangles.assign(subject_.tangles.size(), {none, none, 0, 0});
+    int kept = 0;
+    for (int t = 0; t < series_.num_frames(); ++t) {
+      bool all = true;
+      for (size_t k = 0; k < out_.tangles.size(); ++k) {
+        TangleMetrics& m = out_.tangles[k];
+        const double gli = series_.at[t].gli[k];
+        if (gli < m.min_signed_gli) {
+          m.min_signed_gli = gli;
+          m.worst_frame = t;
+        }
+        m.min_signed_gli_between = std::min(m.min_signed_gli_between, gli);
+        if (t + 1 < series_.num_frames()) {
+          m.min_signed_gli_between = std::min(m.min_signed_gli_between, series_.between[t].gli[k]);
+        }
+        if (gli > kTangleThreshold) continue;
+        ++m.frames_below_half;
+        all = false;
+      }
+      kept += all;
+    }
+    out_.tangle_kept_percent = 100.0 * kept / series_.num_frames();
+    out_.smallest_gli = out_.smallest_gli_between = out_.tangles.empty() ? 0 : none;
+    for (const TangleMetrics& t : out_.tangles) {
+      out_.smallest_gli = std::min(out_.smallest_gli, t.min_signed_gli);
+      out_.smallest_gli_between = std::min(out_.smallest_gli_between, t.min_signed_gli_between);
+    }
+  }
+
+  void MeasureExtremes() {
+    out_.hold_m.assign(subject_.holds.size(), 0);
+    out_.hold_frame.assign(subject_.holds.size(), 0);
+    int deep = 0;
+    for (int t = 0; t < series_.num_frames(); ++t) {
+      Include(series_.at[t], t);
+      if (t + 1 < series_.num_frames()) Include(series_.between[t], t);
+      const double depth = series_.at[t].penetration.depth_m;
+      out_.penetration_m = std::max(out_.penetration_m, depth);
+      deep += depth > kDeep;
+    }
+    out_.penetration_over_1cm_percent = 100.0 * deep / series_.num_frames();
+  }
+
+  // Takes the extremes of one instant, or of those between frame t and the next.
+  void Include(const InstantValues& values, int t) {
+    if (values.penetration.depth_m > out_.penetration_between_m) {
+      out_.penetration_between_m = values.penetration.depth_m;
+      out_.penetration_frame = t;
+      out_.penetration_node_a = values.penetration.node_1;
+      out_.penetration_node_b = values.penetration.node_2;
+    }
+    for (size_t k = 0; k < out_.hold_m.size(); ++k) {
+      if (values.hold_m[k] <= out_.hold_m[k]) continue;
+      out_.hold_m[k] = values.hold_m[k];
+      out_.hold_frame[k] = t;
+    }
+    for (int f = 0; f < 2; ++f) {
+      const FigureValues& v = values.figure[f];
+      FigureMetrics& m = out_.figure[f];
+      m.self_penetration_m = std::max(m.self_penetration_m, v.self_penetration.depth_m);
+      m.length_error_percent = std::max(m.length_error_percent, v.length_error_percent);
+      if (v.floor_m <= m.floor_m) continue;
+      m.floor_m = v.floor_m;
+      m.floor_frame = t;
+      m.floor_node = v.floor_node;
+    }
+  }
+
+  void MeasureFeet(int f) {
+    FigureMetrics& m = out_.figure[f];
+    int stance = 0, sliding = 0;
+    for (const Contact& c : subject_.contacts[f]) {
+      const Vec3 start = frames_[c.first][f][c.node];
+      for (int t = c.first; t <= c.last; ++t) {
+        const Vec3 d = frames_[t][f][c.node] - start;
+        const double drift = std::hypot(d.x(), d.z());
+        if (drift > m.foot_drift_m) {
+          m.foot_drift_m = drift;
+          m.foot_drift_frame = t;
+          m.foot_drift_node = c.node;
+        }
+        if (t == c.first) continue;
+        const double speed = PlantedSpeed(series_, f, c, t);
+        m.foot_speed_max = std::max(m.foot_speed_max, speed);
+        ++stance;
+        sliding += speed > kSlideSpeed;
+      }
+    }
+    m.foot_speed_over_1cm_percent = stance > 0 ? 100.0 * sliding / stance : 0;
+  }
+
+  // Node distance to the source after taking out the root's place and the best-fitting yaw.
+  void MeasureEdit(int f) {
+    const Body& body = subject_.body[f];
+    std::vector<char> tagged(body.nodes.size(), 0);
+    for (const HeldTangle& held : subject_.tangles) {
+      const Path& path = f == 0 ? held.tag.tangle.a : held.tag.tangle.b;
+      for (const int n : NodesOn(body, path)) tagged[n] = 1;
+    }
+    FigureMetrics& m = out_.figure[f];
+    m.path_m.assign(body.nodes.size(), 0);
+    double sum = 0;
+    int count = 0;
+    const size_t frames = std::min(frames_.size(), source_frames_.size());
+    for (size_t t = 0; t < frames; ++t) {
+      const std::vector<Vec3>&p = frames_[t][f], &q = source_frames_[t][f];
+      double c = 0, s = 0;
+      for (size_t n = 1; n < p.size(); ++n) {
+        const Vec3 u = q[n] - q[0], v = p[n] - p[0];
+        c += u.x() * v.x() + u.z() * v.z();
+        s += u.z() * v.x() - u.x() * v.z();
+      }
+      const Quat yaw = YawRotation(std::atan2(s, c));
+      for (size_t n = 1; n < p.size(); ++n) {
+        if (!tagged[n]) {
+          sum += ((p[n] - p[0]) - yaw * (q[n] - q[0])).norm();
+          ++count;
+        }
+        if (t > 0) {
+          m.path_m[n] += ((p[n] - p[0]) - (frames_[t - 1][f][n] - frames_[t - 1][f][0])).norm();
+        }
+      }
+    }
+    m.pose_error_cm = count > 0 ? 100 * sum / count : 0;
+    m.joint_edit_deg = JointEdit(f, frames);
+  }
+
+  // Mean turn of the joints against the source (deg).
+  double JointEdit(int f, size_t frames) const {
+    double sum = 0;
+    for (const std::vector<double>& joint : series_.tracking_deg[f]) {
+      sum = std::accumulate(joint.begin(), joint.begin() + static_cast<long>(frames), sum);
+    }
+    const size_t count = frames * series_.tracking_deg[f].size();
+    return count > 0 ? sum / static_cast<double>(count) : 0;
+  }
+
+  static double MeanJerk(const std::vector<NodePositions>& frames, int f, double fps) {
+    double sum = 0;
+    int count = 0;
+    for (size_t t = 0; t + 3 < frames.size(); ++t) {
+      for (size_t n = 0; n < frames[t][f].size(); ++n) {
+        sum += (frames[t + 3][f][n] - 3 * frames[t + 2][f][n] + 3 * frames[t + 1][f][n] -
+                frames[t][f][n])
+                   .norm();
+        ++count;
+      }
+    }
+    return count > 0 ? sum / count * fps * fps * fps : 0;
+  }
+
+  void MeasureJerk() {
+    std::array<double, 2> source;
+    for (int f = 0; f < 2; ++f) source[f] = MeanJerk(source_frames_, f, series_.fps);
+    const double larger = std::max(source[0], source[1]);
+    for (int f = 0; f < 2; ++f) {
+      FigureMetrics& m = out_.figure[f];
+      m.jerk = MeanJerk(frames_, f, series_.fps);
+      m.jerk_ratio_own = source[f] > 0 ? m.jerk / source[f] : 1;
+      m.jerk_ratio_larger = larger > 0 ? m.jerk / larger : 1;
+    }
+  }
+
+  const MeasureSubject& subject_;
+  const FrameSeries& series_;
+  const std::vector<NodePositions>&frames_, &source_frames_;
+  Metrics out_;
+};
+
+}  // namespace
+
+Metrics MetricsOf(const MeasureSubject& subject, const FrameSeries& series,
+                  const std::vector<NodePositions>& source) {
+  return Measurement(subject, series, source).Run();
+}
+
+Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const MotionView& source) {
+  return MetricsOf(subject, MeasureSeries(subject, motion, source), NodesOf(source));
+}
+
+}  // namespace retarget

@@ -1,0 +1,221 @@
+// Levenberg-Marquardt on the frame-banded normal equations. Steps are shortened and damped per
+// frame: where one would carry a limb too far, or through a limb, or into a contact that the linear
+// model did not see, those frames are held back and the rest of the clip goes on.
+#include <algorithm>
+#include <cmath>
+
+#include "model/body/pass_through.h"
+#include "solver/optimizer/banded.h"
+#include "solver/optimizer/normal_equations.h"
+#include "solver/optimizer/spacetime.h"
+#include "solver/problem/parallel.h"
+
+namespace retarget {
+namespace {
+
+constexpr double kLeastDamping = 1e-9;
+constexpr double kMostDamping = 1e5;  // only a cliff (a pass-through) lies ahead: no way on
+constexpr int kShortenings = 6;       // trials of one step
+constexpr int kMostRejections = 12;   // in a row
+constexpr double kShareSlope = 0.12;  // change of the share from frame to frame
+
+class BandedStage {
+ public:
+  BandedStage(const StageContext& context, SolveResult* result)
+      : context_(context),
+        problem_(*context.problem),
+        scene_(problem_.scene()),
+        result_(result),
+        threads_(NumThreads(problem_.settings().solve.threads)),
+        frames_(static_cast<size_t>(std::max(threads_, 2))),
+        rows_(frames_.size()),
+        spans_(AnchorSpans(scene_)),
+        system_(scene_.num_frames(), spans_, problem_.smoothness().weight().array().square()),
+        accepted_(static_cast<size_t>(scene_.num_frames())),
+        trial_(accepted_.size()),
+        accepted_terms_(accepted_.size()),
+        trial_terms_(accepted_.size()),
+        accepted_cost_(accepted_.size()),
+        trial_cost_(accepted_.size()),
+        move_(accepted_.size()),
+        tunnelled_(accepted_.size()),
+        caution_(VecX::Ones(scene_.num_frames())) {}
+
+  SolveStatus Run() {
+    const SolveSettings& settings = problem_.settings().solve;
+    double cost = EvaluateTrial(result_->unknowns);
+    Accept();
+    double damping = settings.initial_damping;
+    result_->stalled = false;
+    int flat = 0;      // iterations in a row that gained little
+    int rejected = 0;  // linear solves in a row without a sound step
+    for (int iterations = 0; iterations < context_.iterations_left;) {
+      if (context_.seconds_left > 0 && SecondsNow() - context_.started > context_.seconds_left) {
+        return SolveStatus::kTimeLimit;
+      }
+      Unknowns next;
+      double next_cost = cost;
+      if (!SolveLinear(result_->unknowns, damping) || !Shorten(cost, &next, &next_cost)) {
+        damping *= 5;
+        if (++rejected > kMostRejections || damping > kMostDamping) {
+          result_->stalled = true;
+          return SolveStatus::kConverged;
+        }
+        continue;
+      }
+      rejected = 0;
+      ++iterations;
+      ++result_->iterations;
+      const double decrease = (cost - next_cost) / cost;
+      const bool whole = share_.minCoeff() == 1;
+      if (whole) {
+        const double gain = (cost - next_cost) / std::max(PredictedDecrease(damping), 1e-300);
+        damping *= std::clamp(1 - std::pow(2 * gain - 1, 3), 0.2, 2.0);
+        damping = std::max(damping, kLeastDamping);
+      }
+      // Frames whose step was shortened are damped in the next one, the others less and less.
+      caution_ = (caution_ / 4).cwiseMax(share_.array().pow(-2).matrix());
+      Iteration iteration;
+      iteration.step_m = *std::max_element(move_.begin(), move_.end());
+      result_->unknowns = std::move(next);
+      cost = next_cost;
+      Accept();
+      if (!Report(cost, &iteration)) return SolveStatus::kInterrupted;
+      // A step that was held short says nothing about convergence.
+      const bool free = share_.mean() > 0.9 && damping < 0.1;
+      flat = free && decrease < context_.tolerance ? flat + 1 : 0;
+      if (flat >= 2) return SolveStatus::kConverged;
+    }
+    return SolveStatus::kIterationLimit;
+  }
+
+ private:
+  void Assemble(const Unknowns& x, int t, int thread, FrameBlock* block) {
+    frames_[thread].Set(scene_, x, t, true);
+    problem_.EvaluateFrame(frames_[thread], context_.contact_factor, true, &rows_[thread]);
+    FillBlock(problem_, rows_[thread], x.edit, t, block);
+  }
+
+  bool SolveLinear(const Unknowns& x, double damping) {
+    ++result_->linear_solves;
+    return system_.Solve(
+        [&](int t, int thread, FrameBlock* block) { Assemble(x, t, thread, block); },
+        damping * caution_, threads_, &step_);
+  }
+
+  // What the linear model gains by the whole step: with (H + damping D) s = -g,
+  // -g.s - s.H s / 2, and s.H s = -g.s - damping s.D s.
+  double PredictedDecrease(double damping) const {
+    double slope = -step_.anchors.cwiseProduct(step_.anchor_gradient).sum(), damped = 0;
+    for (int t = 0; t < scene_.num_frames(); ++t) {
+      const auto s = step_.frames.col(t).array();
+      slope -= (s * step_.gradient.col(t).array()).sum();
+      damped += damping * caution_[t] * (s * s * step_.diagonal.col(t).array()).sum();
+    }
+    return 0.5 * (slope + damped);
+  }
+
+  // Finds the share of the step that each frame can take: no node too far, no limb through a limb,
+  // and less cost in all. Frames that cannot take all of it are held back with their neighbours,
+  // evenly, and the rest of the clip goes on. False where no share will do.
+  bool Shorten(double cost, Unknowns* next, double* next_cost) {
+    const double limit = problem_.settings().solve.step_limit_m;
+    const int n = scene_.num_frames();
+    share_ = VecX::Ones(n);
+    for (int attempt = 0; attempt < kShortenings; ++attempt) {
+      *next = result_->unknowns;
+      next->edit += step_.frames * share_.asDiagonal();
+      for (size_t k = 0; k < spans_.size(); ++k) {
+        const int first = spans_[k].first, length = spans_[k].last - first + 1;
+        next->anchor.col(k) += share_.segment(first, length).mean() * step_.anchors.col(k);
+      }
+      *next_cost = EvaluateTrial(*next);
+      VecX factor = VecX::Ones(n);
+      bool sound = true;
+      for (int t = 0; t < n; ++t) {
+        if (move_[t] > limit) factor[t] = 0.9 * limit / move_[t];
+        if (tunnelled_[t]) factor[t] = std::min(factor[t], 0.4);
+        sound = sound && factor[t] == 1;
+      }
+      if (sound) {
+        if (*next_cost < cost) return true;
+        // The frames that cost more than before hold the others back: shorten those.
+        double worst = 0;
+        for (int t = 0; t < n; ++t) worst = std::max(worst, trial_cost_[t] - accepted_cost_[t]);
+        for (int t = 0; t < n; ++t) {
+          if (trial_cost_[t] - accepted_cost_[t] > 0.1 * worst) factor[t] = 0.3;
+        }
+      }
+      share_ = share_.cwiseProduct(factor);
+      for (int t = 1; t < n; ++t) share_[t] = std::min(share_[t], share_[t - 1] + kShareSlope);
+      for (int t = n - 2; t >= 0; --t) share_[t] = std::min(share_[t], share_[t + 1] + kShareSlope);
+    }
+    return false;
+  }
+
+  // Cost of `x`. Also sets, per frame, the cost, how far the furthest node moved from the accepted
+  // iterate (m), and whether a limb went through a limb.
+  double EvaluateTrial(const Unknowns& x) {
+    const double jump = problem_.settings().solve.gli_jump;
+    ParallelFor(scene_.num_frames(), threads_, [&](int t, int thread) {
+      Frame& frame = frames_[thread];
+      frame.Set(scene_, x, t, false);
+      trial_cost_[t] = problem_.FrameCost(frame, x.edit, context_.contact_factor, &rows_[thread],
+                                          &trial_terms_[t]);
+      for (int f = 0; f < 2; ++f) trial_[t][f] = frame.posed[f].node;
+      if (accepted_[t][0].empty()) return;
+      move_[t] = LargestDisplacement(accepted_[t], trial_[t]);
+      tunnelled_[t] = LargestGliJump(scene_.body, accepted_[t], trial_[t], kGuardReach).size > jump;
+    });
+    double sum = 0;
+    for (const double c : trial_cost_) sum += c;
+    return sum;
+  }
+
+  void Accept() {
+    std::swap(accepted_, trial_);
+    trial_.resize(accepted_.size());
+    accepted_cost_ = trial_cost_;
+    std::swap(accepted_terms_, trial_terms_);
+  }
+
+  bool Report(double cost, Iteration* iteration) {
+    iteration->stage = context_.stage;
+    iteration->index = result_->iterations;
+    iteration->cost = cost;
+    iteration->term_cost.assign(accepted_terms_[0].size(), 0);
+    for (const std::vector<double>& of_frame : accepted_terms_) {
+      for (size_t k = 0; k < of_frame.size(); ++k) iteration->term_cost[k] += of_frame[k];
+    }
+    MeasureIteration(problem_, result_->unknowns, threads_, iteration);
+    iteration->seconds = SecondsNow() - context_.started;
+    result_->history.push_back(*iteration);
+    return !*context_.progress || (*context_.progress)(*iteration);
+  }
+
+  const StageContext& context_;
+  const Problem& problem_;
+  const Scene& scene_;
+  SolveResult* result_;
+  int threads_;
+  std::vector<Frame> frames_;  // per thread
+  std::vector<Rows> rows_;
+  std::vector<AnchorSpan> spans_;
+  BandedSystem system_;
+  BandedStep step_;
+  std::vector<NodePositions> accepted_, trial_;
+  std::vector<std::vector<double>> accepted_terms_, trial_terms_;  // costs, per frame and term
+  std::vector<double> accepted_cost_, trial_cost_;
+  std::vector<double> move_;  // of the last trial, per frame (m)
+  std::vector<char> tunnelled_;
+  VecX caution_;  // factor of the damping, per frame
+  VecX share_;    // of the last step, per frame
+};
+
+}  // namespace
+
+SolveStatus SolveStageBanded(const StageContext& context, SolveResult* result) {
+  return BandedStage(context, result).Run();
+}
+
+}  // namespace retarget

@@ -1,0 +1,2 @@
+#define RETARGET_KERNEL avx512
+#include "solver/optimizer/kernels_impl.h"

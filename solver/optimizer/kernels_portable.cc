@@ -1,0 +1,2 @@
+#define RETARGET_KERNEL portable
+#include "solver/optimizer/kernels_impl.h"

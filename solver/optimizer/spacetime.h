@@ -1,0 +1,73 @@
+// The spacetime solve: the whole clip of both figures as one nonlinear least-squares problem.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solver/problem/problem.h"
+
+namespace retarget {
+
+// One accepted iteration.
+struct Iteration {
+  int stage = 0;
+  int index = 0;
+  double cost = 0;
+  double step_m = 0;        // furthest node
+  double smallest_gli = 0;  // s GLI over all tags and frames (turns)
+  double deepest_penetration_m = 0;
+  double hold_error_m = 0;
+  double seconds = 0;  // since the start of the solve
+  // Shares of the cost by term (weighted as in this stage), in the order of Problem::CostByTerm.
+  std::vector<double> term_cost;
+};
+
+enum class SolveStatus { kConverged, kIterationLimit, kTimeLimit, kInterrupted };
+
+struct SolveResult {
+  Unknowns unknowns;
+  SolveStatus status = SolveStatus::kConverged;
+  // The last stage ended because no step was acceptable (only a pass-through led on, or the model
+  // failed), not because nothing was left to gain.
+  bool stalled = false;
+  double initial_cost = 0, cost = 0;
+  double seconds = 0;
+  int iterations = 0;  // accepted
+  int linear_solves = 0;
+  std::string backend;
+  std::vector<Iteration> history;
+};
+
+// Called after each iteration; false stops the solve, which then returns the best so far.
+using Progress = std::function<bool(const Iteration&)>;
+
+// Solves from `start` in the stages and with the back end of the problem's settings.
+SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const Progress& progress);
+// The same in stages of one's own, which end with 1.
+SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
+                           const std::vector<double>& stages, const Progress& progress);
+
+// Factors of the contact weights: "0.03 0.1 0.3 1" (solve.stages). Throws InputError.
+std::vector<double> ParseStages(const std::string& text);
+
+// What both back ends do with one stage: solve from `unknowns`, leave the best there.
+struct StageContext {
+  const Problem* problem;
+  double contact_factor;
+  double tolerance;  // relative decrease, twice in a row ends the stage
+  int iterations_left;
+  double seconds_left;  // 0: no limit
+  int stage;
+  double started;  // clock at the start of the solve
+  const Progress* progress;
+};
+SolveStatus SolveStageBanded(const StageContext& context, SolveResult* result);
+SolveStatus SolveStageCeres(const StageContext& context, SolveResult* result);
+
+// Fills the figures of an iteration that are measured from the motion.
+void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int threads,
+                      Iteration* iteration);
+double SecondsNow();
+
+}  // namespace retarget

@@ -1,0 +1,29 @@
+// Where the roots of two figures should go whose clips part by drifting: one walks faster than the
+// other, or along another curve. Each clip was captured alone, so its place in the world is
+// nobody's intention; how it moves from moment to moment is.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/problem/scene.h"
+
+namespace retarget {
+
+// A turn about the vertical through the root, and a horizontal shift.
+struct RootShift {
+  double yaw = 0;             // rad
+  Vec3 shift = Vec3::Zero();  // m
+};
+
+// Shifts of each figure's placed root, per frame, under which the two keep the template's distance
+// and headings but for what comes and goes within about a second, and for 10 cm and 0.25 rad, which
+// the limbs can bear. The rest is shared between the figures as they travel, so that one who stands
+// stays where he is. No shift at the frame that is laid into the template, where a figure follows
+// its partner, or where no tag ties the two.
+std::array<std::vector<RootShift>, 2> MeetingShifts(const Scene& scene);
+
+// The placed root of a figure at frame t with its shift.
+Pose ShiftedRoot(const Pose& source, const RootShift& shift);
+
+}  // namespace retarget

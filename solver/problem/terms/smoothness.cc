@@ -1,0 +1,72 @@
+#include "solver/problem/terms/smoothness.h"
+
+#include <algorithm>
+
+#include "solver/problem/terms/tracking.h"
+
+namespace retarget {
+namespace {
+constexpr double kStencil[3] = {1, -2, 1};
+}
+
+Smoothness::Smoothness(const Scene& scene, const Settings& settings) {
+  weight_.resize(scene.num_coordinates());
+  is_root_.assign(static_cast<size_t>(scene.num_coordinates()), false);
+  const double rate = scene.fps() / 30;
+  for (int f = 0; f < 2; ++f) {
+    const int first = scene.FirstCoordinate(f);
+    const Body& body = scene.body[f];
+    for (int c = 0; c < 6; ++c) {
+      weight_[first + c] = settings.weights.root_smoothness;
+      is_root_[static_cast<size_t>(first + c)] = true;
+    }
+    for (int l = 1; l < body.num_links(); ++l) {
+      const double share = JointShare(settings.joint_weights, body.links[l].name);
+      weight_.segment<3>(first + 3 + 3 * l).setConstant(settings.weights.smoothness * share);
+    }
+  }
+  weight_ *= rate * rate;
+}
+
+double Smoothness::HalfSquares(const MatX& edit, int first, int last, bool root) const {
+  const int n = static_cast<int>(edit.cols());
+  double sum = 0;
+  for (int t = std::max(first, 1); t < std::min(last, n - 1); ++t) {
+    for (int c = 0; c < weight_.size(); ++c) {
+      if (is_root_[static_cast<size_t>(c)] != root) continue;
+      const double r = weight_[c] * (edit(c, t - 1) - 2 * edit(c, t) + edit(c, t + 1));
+      sum += r * r;
+    }
+  }
+  return 0.5 * sum;
+}
+
+double Smoothness::Largest(const MatX& edit, int t, bool root) const {
+  if (t < 1 || t + 1 >= edit.cols()) return 0;
+  double largest = 0;
+  for (int c = 0; c < weight_.size(); ++c) {
+    if (is_root_[static_cast<size_t>(c)] != root) continue;
+    const double r = weight_[c] * (edit(c, t - 1) - 2 * edit(c, t) + edit(c, t + 1));
+    largest = std::max(largest, std::abs(r));
+  }
+  return largest;
+}
+
+void Smoothness::AddGradient(const MatX& edit, int t, Eigen::Ref<VecX> g) const {
+  const int n = static_cast<int>(edit.cols());
+  for (int centre = std::max(t - 1, 1); centre <= std::min(t + 1, n - 2); ++centre) {
+    const double own = kStencil[t - centre + 1];
+    g.array() += own * weight_.array().square() *
+                 (edit.col(centre - 1) - 2 * edit.col(centre) + edit.col(centre + 1)).array();
+  }
+}
+
+double Smoothness::StencilProduct(int num_frames, int t, int lag) {
+  double sum = 0;
+  for (int centre = std::max(t + lag - 1, 1); centre <= std::min(t + 1, num_frames - 2); ++centre) {
+    sum += kStencil[t - centre + 1] * kStencil[t + lag - centre + 1];
+  }
+  return sum;
+}
+
+}  // namespace retarget

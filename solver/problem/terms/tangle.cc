@@ -1,0 +1,32 @@
+#include "solver/problem/terms/tangle.h"
+
+#include "model/body/path.h"
+#include "model/geometry/polyline.h"
+
+namespace retarget {
+TangleTerm::TangleTerm(const Scene& scene) {
+  for (const HeldTangle& held : scene.tangles) {
+    items_.push_back({NodesOn(scene.body[0], held.tag.tangle.a),
+                      NodesOn(scene.body[1], held.tag.tangle.b), held.sign, held.target});
+  }
+}
+
+void TangleTerm::Evaluate(const Frame& frame, Rows* rows) const {
+  for (const Item& item : items_) {
+    const std::vector<Vec3> p = PointsOn(frame.posed[0].node, item.nodes_a);
+    const std::vector<Vec3> q = PointsOn(frame.posed[1].node, item.nodes_b);
+    const double missing = item.target - item.sign * PolylineGli(p, q);
+    if (missing <= 0) continue;
+    const int row = rows->Add(missing);
+    if (!rows->derivatives()) continue;
+    const PathGli gli = PolylineGliGradient(p, q);
+    for (size_t i = 0; i < p.size(); ++i) {
+      rows->AddNode(row, 0, item.nodes_a[i], -item.sign * gli.gradient_p[i]);
+    }
+    for (size_t j = 0; j < q.size(); ++j) {
+      rows->AddNode(row, 1, item.nodes_b[j], -item.sign * gli.gradient_q[j]);
+    }
+  }
+}
+
+}  // namespace retarget

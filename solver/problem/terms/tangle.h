@@ -1,0 +1,28 @@
+// tangle: a tagged tangle stays above one half, in the template's sense.
+//   r = max(0, target - s GLI(P, Q))          (turns), s the template's sign,
+//   target = 0.5 + margin, never above the template's own value
+// GLI by Ho and Komura 2007, Eq. 1 and 3. 1 frame, 2 bodies. YAML: weights.tangle, tangle.margin.
+#pragma once
+
+#include <vector>
+
+#include "solver/problem/term.h"
+
+namespace retarget {
+
+class TangleTerm : public Term {
+ public:
+  explicit TangleTerm(const Scene& scene);
+  const char* name() const override { return "tangle"; }
+  const char* unit() const override { return "turns"; }
+  void Evaluate(const Frame& frame, Rows* rows) const override;
+
+ private:
+  struct Item {
+    std::vector<int> nodes_a, nodes_b;
+    double sign, target;
+  };
+  std::vector<Item> items_;
+};
+
+}  // namespace retarget

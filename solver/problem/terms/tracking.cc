@@ -1,0 +1,128 @@
+#include "solver/problem/terms/tracking.h"
+
+#include "model/geometry/so3.h"
+
+namespace retarget {
+
+double JointShare(const JointWeights& w, const std::string& link_name) {
+  const size_t side = link_name.find('_');
+  const std::string joint = side == std::string::npos ? link_name : link_name.substr(side + 1);
+  if (joint == "root") return 1;
+  if (joint == "waist") return w.waist;
+  if (joint == "chest") return w.chest;
+  if (joint == "neck") return w.neck;
+  if (joint == "head") return w.head;
+  if (joint == "clavicle") return w.clavicle;
+  if (joint == "shoulder") return w.shoulder;
+  if (joint == "elbow") return w.elbow;
+  if (joint == "wrist") return w.wrist;
+  if (joint == "hip") return w.hip;
+  if (joint == "knee") return w.knee;
+  if (joint == "ankle") return w.ankle;
+  return w.other;
+}
+
+PoseTracking::PoseTracking(const Scene& scene, const JointWeights& weights) {
+  for (int f = 0; f < 2; ++f) {
+    for (const Link& link : scene.body[f].links) {
+      share_[f].push_back(JointShare(weights, link.name));
+    }
+  }
+}
+
+void PoseTracking::Evaluate(const Frame& frame, Rows* rows) const {
+  for (int f = 0; f < 2; ++f) {
+    const int first = frame.scene->FirstCoordinate(f);
+    for (size_t l = 1; l < share_[f].size(); ++l) {
+      for (int k = 0; k < 3; ++k) {
+        const int c = first + 3 + 3 * static_cast<int>(l) + k;
+        rows->AddCoordinate(c, share_[f][l] * frame.x[c], share_[f][l]);
+      }
+    }
+  }
+}
+
+std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure) {
+  std::vector<RelativeRoot> targets;
+  if (scene.root[figure] == RootLeader::kOwnClip) return targets;
+  const Pose& self = scene.posture.pose[figure];
+  const Pose& partner = scene.posture.pose[1 - figure];
+  const Pose& start = scene.source[figure].frames[scene.template_frame];
+  const Quat partner_inverse = partner.rotation[0].conjugate();
+  const Quat start_inverse = start.rotation[0].conjugate();
+  for (const Pose& pose : scene.source[figure].frames) {
+    // X_T X_clip(t0)^-1 X_clip(t), then into the partner's frame.
+    const Quat moved_rotation = self.rotation[0] * start_inverse * pose.rotation[0];
+    const Vec3 moved =
+        self.root_position +
+        self.rotation[0] * (start_inverse * (pose.root_position - start.root_position));
+    targets.push_back({partner_inverse * (moved - partner.root_position),
+                       (partner_inverse * moved_rotation).normalized()});
+  }
+  return targets;
+}
+
+RootTracking::RootTracking(const Scene& scene) : meeting_(MeetingShifts(scene)) {
+  for (int f = 0; f < 2; ++f) relative_[f] = RelativeRootTargets(scene, f);
+}
+
+void RootTracking::Evaluate(const Frame& frame, Rows* rows) const {
+  for (int f = 0; f < 2; ++f) {
+    if (!relative_[f].empty()) {
+      EvaluateFollower(frame, f, rows);
+      continue;
+    }
+    EvaluateLeader(frame, f, rows);
+  }
+}
+
+void RootTracking::EvaluateLeader(const Frame& frame, int figure, Rows* rows) const {
+  const RootShift& shift = meeting_[figure][frame.t];
+  const Pose& source = frame.scene->source[figure].frames[frame.t];
+  const int first = frame.scene->FirstCoordinate(figure);
+  if (shift.yaw == 0 && shift.shift.isZero(0)) {  // the edit itself is the error
+    for (int c = first; c < first + 6; ++c) rows->AddCoordinate(c, frame.x[c], 1);
+    return;
+  }
+  const Pose target = ShiftedRoot(source, shift);
+  const Vec3& p = frame.posed[figure].centre[0];
+  const Mat3& now = frame.posed[figure].rotation[0];
+  const Vec3 angle = LogSo3(Quat(Mat3(target.rotation[0].toRotationMatrix().transpose() * now)));
+  const Mat3 jacobian = RightJacobianInverse(angle) * now.transpose();
+  for (int k = 0; k < 3; ++k) {
+    const int row = rows->Add(p[k] - target.root_position[k]);
+    rows->AddPoint(row, figure, 0, p, Vec3::Unit(k));
+    rows->AddTurn(rows->Add(angle[k]), figure, 0, jacobian.row(k).transpose());
+  }
+}
+
+void RootTracking::EvaluateFollower(const Frame& frame, int figure, Rows* rows) const {
+  const int partner = 1 - figure;
+  const RelativeRoot& relative = relative_[figure][frame.t];
+  const Vec3& p = frame.posed[figure].centre[0];
+  const Vec3& q = frame.posed[partner].centre[0];
+  const Mat3 target_rotation =
+      frame.posed[partner].rotation[0] * relative.rotation.toRotationMatrix();
+  const Vec3 target = q + frame.posed[partner].rotation[0] * relative.position;
+  // A turn of the partner carries the target with it: d(R_target^T (p - target)) =
+  // R_target^T (dp - dq + (p - q) x d omega).
+  const Vec3 error = target_rotation.transpose() * (p - target);
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 g = target_rotation.col(k);
+    const int row = rows->Add(error[k]);
+    rows->AddPoint(row, figure, 0, p, g);
+    rows->AddPoint(row, partner, 0, p, -g);
+  }
+  const Mat3 difference = target_rotation.transpose() * frame.posed[figure].rotation[0];
+  const Vec3 angle = LogSo3(Quat(difference));
+  // log(D exp(w)) = log D + J_r^-1 w, w = R^T (d omega_self - d omega_partner).
+  const Mat3 jacobian = RightJacobianInverse(angle) * frame.posed[figure].rotation[0].transpose();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 g = jacobian.row(k).transpose();
+    const int row = rows->Add(angle[k]);
+    rows->AddTurn(row, figure, 0, g);
+    rows->AddTurn(row, partner, 0, -g);
+  }
+}
+
+}  // namespace retarget

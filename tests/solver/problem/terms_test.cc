@@ -1,0 +1,208 @@
+// Every term's analytic Jacobian against central differences in the coordinates of the edit, at the
+// source, and at random edits, on the active side of its hinges; and the tracking identity.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "solver/problem/problem.h"
+#include "solver/problem/terms/ray.h"
+#include "tests/solver/scene_fixture.h"
+
+namespace retarget {
+namespace {
+
+constexpr double kStep = 1e-6;
+constexpr double kTolerance =
+    2e-7;  // relative to the row's largest entry, plus the same absolutely
+
+struct Checked {
+  int rows = 0, entries = 0, nonzero = 0, skipped = 0;
+};
+
+// All residuals of a term in one frame, hinge rows and coordinate rows.
+std::vector<double> Residuals(const Term& term, const Scene& scene, const Unknowns& u, int t) {
+  Frame frame;
+  frame.Set(scene, u, t, false);
+  Rows rows;
+  rows.Reset(frame, false);
+  term.Evaluate(frame, &rows);
+  std::vector<double> r = rows.residual();
+  for (const auto& c : rows.coordinates()) r.push_back(c.residual);
+  return r;
+}
+
+// [rows x (coordinates + 2 anchors)] of the same rows.
+MatX Jacobian(const Term& term, const Scene& scene, const Unknowns& u, int t) {
+  Frame frame;
+  frame.Set(scene, u, t, true);
+  Rows rows;
+  rows.Reset(frame, true);
+  term.Evaluate(frame, &rows);
+  const long n = scene.num_coordinates();
+  const long m = rows.num_rows();
+  MatX j = MatX::Zero(m + static_cast<long>(rows.coordinates().size()), n + u.anchor.size());
+  j.topLeftCorner(m, n) = rows.jacobian();
+  for (const auto& e : rows.anchors()) j(e.row, n + 2 * e.anchor + e.component) += e.value;
+  for (size_t k = 0; k < rows.coordinates().size(); ++k) {
+    j(m + static_cast<long>(k), rows.coordinates()[k].coordinate) =
+        rows.coordinates()[k].derivative;
+  }
+  return j;
+}
+
+void CheckFrame(const Term& term, const Scene& scene, const Unknowns& u, int t, Checked* checked) {
+  const std::vector<double> r0 = Residuals(term, scene, u, t);
+  if (r0.empty()) return;
+  const MatX j = Jacobian(term, scene, u, t);
+  ASSERT_EQ(static_cast<size_t>(j.rows()), r0.size()) << term.name();
+  const long n = scene.num_coordinates();
+  MatX numeric = MatX::Zero(j.rows(), j.cols());
+  for (long c = 0; c < j.cols(); ++c) {
+    Unknowns plus = u, minus = u;
+    if (c < n) {
+      plus.edit(c, t) += kStep;
+      minus.edit(c, t) -= kStep;
+    } else {
+      plus.anchor(c - n) += kStep;
+      minus.anchor(c - n) -= kStep;
+    }
+    const std::vector<double> rp = Residuals(term, scene, plus, t);
+    const std::vector<double> rm = Residuals(term, scene, minus, t);
+    if (rp.size() != r0.size() || rm.size() != r0.size()) {  // a hinge switched within the step
+      ++checked->skipped;
+      return;
+    }
+    for (long k = 0; k < j.rows(); ++k) numeric(k, c) = (rp[k] - rm[k]) / (2 * kStep);
+  }
+  for (long k = 0; k < j.rows(); ++k) {
+    const double scale = 1 + j.row(k).cwiseAbs().maxCoeff();
+    for (long c = 0; c < j.cols(); ++c) {
+      ASSERT_NEAR(j(k, c), numeric(k, c), kTolerance * scale)
+          << term.name() << " frame " << t << " row " << k << " coordinate " << c;
+      ++checked->entries;
+      checked->nonzero += j(k, c) != 0;
+    }
+    ++checked->rows;
+  }
+}
+
+Unknowns RandomEdit(const Scene& scene, double size, unsigned seed) {
+  Unknowns u = UnknownsFromPoses(scene, scene.source);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  for (long i = 0; i < u.edit.size(); ++i) u.edit(i) = size * normal(random);
+  for (long i = 0; i < u.anchor.size(); ++i) u.anchor(i) += 0.05 * normal(random);
+  return u;
+}
+
+TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
+  std::map<std::string, Checked> checked;
+  for (const std::string roots : {"own", "follow", "drift"}) {
+    Scene scene = SmallScene(4, 0.2, roots == "follow");
+    for (int t = 0; t < 4 && roots == "drift"; ++t) {  // b walks and turns away from a
+      Pose& b = scene.source[1].frames[t];
+      b.root_position += Vec3(0.1 * t, 0, 0.2 * t);
+      b.rotation[0] = YawRotation(0.3 * t) * b.rotation[0];
+    }
+    // An elbow that only bends, an ankle of two axes.
+    for (int f = 0; f < 2; ++f) {
+      const int elbow = scene.body[f].FindLink("left_elbow");
+      const int ankle = scene.body[f].FindLink("right_ankle");
+      scene.stiff[f].assign(
+          4, {{elbow, Vec3(0.6, 0.8, 0)}, {elbow, Vec3(0, 0, 1)}, {ankle, Vec3(1, 2, -2) / 3}});
+    }
+    const Problem problem(scene, {});
+    for (unsigned seed = 0; seed < 11; ++seed) {
+      const Unknowns u = RandomEdit(scene, seed == 0 ? 0 : 0.25, seed);
+      for (const auto& term : problem.terms()) {
+        for (int t = 0; t < scene.num_frames(); ++t) {
+          CheckFrame(*term, scene, u, t, &checked[term->name()]);
+        }
+      }
+    }
+  }
+  for (const auto& term : {"pose_tracking", "root_tracking", "foot_lock", "hold", "penetration",
+                           "self_penetration", "ground", "tangle", "joint_limit", "rig_turn"}) {
+    const Checked& c = checked[term];
+    std::printf("%-17s %6d rows %8d entries %7d not zero %3d frames skipped\n", term, c.rows,
+                c.entries, c.nonzero, c.skipped);
+    EXPECT_GT(c.rows, 20) << term;
+    EXPECT_GT(c.nonzero, 60) << term;
+  }
+  EXPECT_EQ(checked.size(), 10u);
+}
+
+TEST(Terms, RaysHaveTheirJacobianAndMeasureTheDistance) {
+  const Scene scene = SmallScene(4, 0.2);
+  std::vector<NodeRay> rays;
+  for (const int f : {0, 1}) {
+    for (const int node : {0, 4, 8, 12, 20}) {
+      rays.push_back({f, node, Vec3(0.3 * f, 1, 2), Vec3(0.1 * node, -0.2, -0.5 - f)});
+    }
+  }
+  const RayTerm term(rays);
+  Checked checked;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    const Unknowns u = RandomEdit(scene, seed == 0 ? 0 : 0.25, seed);
+    for (int t = 0; t < scene.num_frames(); ++t) {
+      CheckFrame(term, scene, u, t, &checked);
+      Frame frame;
+      frame.Set(scene, u, t, false);
+      const std::vector<double> r = Residuals(term, scene, u, t);
+      for (size_t k = 0; k < rays.size(); ++k) {
+        const Vec3 from = frame.posed[rays[k].figure].node[rays[k].node] - rays[k].origin;
+        const double distance = from.cross(rays[k].direction).norm() / rays[k].direction.norm();
+        EXPECT_NEAR(std::hypot(r[2 * k], r[2 * k + 1]), distance, 1e-12);
+      }
+    }
+  }
+  EXPECT_EQ(checked.rows, 6 * 4 * 20);
+  EXPECT_GT(checked.nonzero, 1000);
+}
+
+TEST(Terms, SmoothnessGradientAndStencilMatchTheCost) {
+  const Scene scene = SmallScene(7, 0.2);
+  const Smoothness smoothness(scene, {});
+  const Unknowns u = RandomEdit(scene, 0.2, 3);
+  const auto cost = [&](const MatX& edit) {
+    return smoothness.HalfSquares(edit, 0, 7, false) + smoothness.HalfSquares(edit, 0, 7, true);
+  };
+  int checked = 0;
+  for (int t = 0; t < 7; ++t) {
+    VecX g = VecX::Zero(scene.num_coordinates());
+    smoothness.AddGradient(u.edit, t, g);
+    for (int c = 0; c < scene.num_coordinates(); c += 7) {
+      MatX plus = u.edit, minus = u.edit;
+      plus(c, t) += 1e-4;
+      minus(c, t) -= 1e-4;
+      EXPECT_NEAR(g[c], (cost(plus) - cost(minus)) / 2e-4, 1e-5 * (1 + std::abs(g[c])));
+      ++checked;
+      // The Hessian of a quadratic from second differences of the cost, lag 0, 1 and 2.
+      for (int lag = 0; lag <= 2 && t + lag < 7; ++lag) {
+        MatX pp = u.edit, pm = u.edit, mp = u.edit, mm = u.edit;
+        pp(c, t) += 0.1, pp(c, t + lag) += 0.1;
+        pm(c, t) += 0.1, pm(c, t + lag) -= 0.1;
+        mp(c, t) -= 0.1, mp(c, t + lag) += 0.1;
+        mm(c, t) -= 0.1, mm(c, t + lag) -= 0.1;
+        const double second = (cost(pp) - cost(pm) - cost(mp) + cost(mm)) / 0.04;
+        const double w = smoothness.weight()[c];
+        EXPECT_NEAR(w * w * Smoothness::StencilProduct(7, t, lag), second, 1e-6 * w * w);
+        ++checked;
+      }
+    }
+  }
+  EXPECT_GT(checked, 400);
+}
+
+TEST(Terms, TrackingAloneIsZeroAtTheSource) {
+  const Scene scene = SmallScene(5, 0.2);
+  Settings settings;
+  settings.weights = {};
+  settings.weights.foot_lock = settings.weights.hold = settings.weights.penetration = 0;
+  settings.weights.self_penetration = settings.weights.ground = settings.weights.tangle = 0;
+  const Problem problem(scene, settings);
+  EXPECT_LT(problem.Cost(UnknownsFromPoses(scene, scene.source), 1, 1), 1e-20);
+}
+
+}  // namespace
+}  // namespace retarget

@@ -1,0 +1,84 @@
+// The curves as JSON: the shape that the report page reads, rounded, without gaps.
+#include "tools/report/series.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/solver/scene_fixture.h"
+
+namespace retarget {
+namespace {
+
+constexpr int kFrames = 12;
+
+class SeriesJsonTest : public testing::Test {
+ protected:
+  SeriesJsonTest() : scene_(SmallScene(kFrames, 0.3)), subject_(SubjectOf(scene_)) {
+    std::array<Clip, 2> moved;
+    for (int f = 0; f < 2; ++f) {
+      moved[f] = Fidget(scene_.body[f], scene_.posture.pose[f], kFrames, 30, 31 + f, 0.3);
+    }
+    const MotionView source = ViewOf(scene_.body, scene_.source);
+    source_ = MeasureSeries(subject_, source, source);
+    result_ = MeasureSeries(subject_, ViewOf(scene_.body, moved), source);
+    result_.pass_throughs = {{3, 5, 6}};
+  }
+
+  Scene scene_;
+  MeasureSubject subject_;
+  FrameSeries source_, result_;
+};
+
+TEST_F(SeriesJsonTest, HasEveryCurveInEveryFrame) {
+  const Json json = SeriesJson(subject_, source_, &source_, result_);
+  EXPECT_EQ(json["fps"], 30);
+  EXPECT_EQ(json["frames"], kFrames);
+  for (const char* motion : {"source", "baseline", "result"}) {
+    const Json& s = json[motion];
+    ASSERT_EQ(s["tangles"].size(), subject_.tangles.size());
+    ASSERT_EQ(s["hold_cm"].size(), subject_.holds.size());
+    for (const Json& curve : s["tangles"]) EXPECT_EQ(curve.size(), kFrames);
+    for (const Json& curve : s["hold_cm"]) EXPECT_EQ(curve.size(), kFrames);
+    for (const char* curve : {"penetration_cm", "penetration_pair"}) {
+      EXPECT_EQ(s[curve].size(), kFrames) << curve;
+    }
+    for (const char* figure : {"a", "b"}) {
+      for (const char* curve : {"self_penetration_cm", "floor_cm", "foot_speed_cm_s"}) {
+        EXPECT_EQ(s[curve][figure].size(), kFrames) << curve;
+      }
+      const Json& tracking = s["tracking_deg"][figure];
+      if (motion == std::string("source")) {
+        EXPECT_TRUE(tracking.is_null());
+        continue;
+      }
+      ASSERT_EQ(tracking["joints"].size(), 18u);
+      ASSERT_EQ(tracking["values"].size(), 18u);
+      for (const Json& joint : tracking["values"]) EXPECT_EQ(joint.size(), kFrames);
+    }
+    for (int t = 0; t < kFrames; ++t) {
+      EXPECT_EQ(s["penetration_cm"][t] == 0, s["penetration_pair"][t].is_null()) << t;
+    }
+  }
+  EXPECT_EQ(json["result"]["tracking_deg"]["a"]["joints"][0], "waist");
+  EXPECT_EQ(json["result"]["pass_throughs"],
+            Json::parse(R"([{"frame": 3, "a": ")" + scene_.body[0].nodes[5].name + R"(", "b": ")" +
+                        scene_.body[1].nodes[6].name + "\"}]"));
+  EXPECT_TRUE(SeriesJson(subject_, source_, nullptr, result_)["baseline"].is_null());
+}
+
+TEST_F(SeriesJsonTest, NumbersAreRoundedAndInCentimetres) {
+  result_.at[2].penetration = {0.0123456, 1, 2};
+  result_.at[2].gli[0] = 0.98765432;
+  result_.at[3].gli[0] = -1e-9;
+  result_.at[4].gli[0] = std::nan("");
+  result_.foot_speed[1][5] = 0.1;
+  const Json s = SeriesJson(subject_, source_, nullptr, result_)["result"];
+  EXPECT_EQ(s["penetration_cm"][2].dump(), "1.235");
+  EXPECT_EQ(s["tangles"][0][2].dump(), "0.9877");
+  EXPECT_EQ(s["tangles"][0][3].dump(), "0.0");
+  EXPECT_EQ(s["tangles"][0][4].dump(), "null");
+  EXPECT_EQ(s["foot_speed_cm_s"]["b"][5].dump(), "10.0");
+  EXPECT_EQ(s["penetration_pair"][2][0], scene_.body[0].nodes[1].name);
+}
+
+}  // namespace
+}  // namespace retarget

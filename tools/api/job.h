@@ -1,0 +1,44 @@
+// What the command line asks for, read: settings, clips on one rate, the template.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "io/load_clip.h"
+#include "model/settings.h"
+#include "solver/retarget.h"
+#include "tools/api/options.h"
+
+namespace retarget {
+
+struct FrameRange {
+  int first, last;  // half-open
+};
+
+// Configuration file, then --set, then --threads. Throws InputError.
+Settings EffectiveSettings(const RetargetOptions& options);
+
+struct Job {
+  std::array<LoadedClip, 2> clip;
+  RetargetInput input;
+  FrameRange frames;
+};
+
+// The files that a run reads, none of which it may overwrite.
+std::vector<std::string> InputPaths(const RetargetOptions& options);
+
+Job LoadJob(const RetargetOptions& options);  // throws InputError
+// What was recognised in the clips, to stderr.
+void TellNotes(const Job& job);
+
+// Throws InputError where CharacterScene will: nobody wants to wait for a solve to hear it.
+void CheckCharacters(const Job& job);
+
+// The scene of the solved motion with the glTF characters of the clips in place of their figures.
+std::string CharacterScene(const Job& job, const RetargetResult& result, const std::string& scene);
+
+// A scene file of two motions of the scene's bodies.
+std::string SceneBytes(const Scene& scene, const std::array<Clip, 2>& clips);
+
+}  // namespace retarget

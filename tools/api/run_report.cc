@@ -1,0 +1,172 @@
+#include "tools/api/run_report.h"
+
+#include <sys/resource.h>
+
+#include "io/files.h"
+#include "solver/optimizer/kernels.h"
+#include "solver/problem/parallel.h"
+#include "tools/api/version.h"
+
+namespace retarget {
+namespace {
+
+int64_t PeakBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<int64_t>(usage.ru_maxrss) * 1024;
+}
+
+Json InputsJson(const RetargetOptions& options, const Job& job) {
+  Json inputs;
+  for (int f = 0; f < 2; ++f) {
+    const LoadedClip& clip = job.clip[f];
+    Json& input = inputs["clip_" + std::string(kFigure[f])];
+    input = {{"file", clip.options.path},
+             {"hash", clip.motion_facts ? clip.motion_hash : clip.hash},
+             {"format", clip.file.format},
+             {"profile", clip.facts.map.profile},
+             {"units", clip.facts.metres_per_unit},
+             {"up", std::string(1, clip.facts.up)},
+             {"start_s", clip.options.start},
+             {"skip_frames", clip.options.skip_frames},
+             {"t_pose_frames", clip.facts.t_pose_frames},
+             {"notes", clip.facts.notes}};
+    if (!clip.options.map.empty()) input["map"] = clip.options.map;
+    if (clip.motion_facts) {
+      input["character"] = {{"file", clip.options.character},
+                            {"hash", clip.hash},
+                            {"motion_profile", clip.motion_facts->map.profile}};
+    }
+  }
+  inputs["template"] = {{"file", options.template_path},
+                        {"name", job.input.posture.name},
+                        {"hash", HashOf(ReadFile(options.template_path))},
+                        {"at_s", options.template_at}};
+  inputs["frames"] = {job.frames.first, job.frames.last};
+  inputs["fps"] = options.fps;
+  return inputs;
+}
+
+Json SolveJson(const RetargetResult& result) {
+  Json history = Json::array();
+  for (const Iteration& i : result.solve.history) {
+    Json terms;
+    for (size_t k = 0; k < i.term_cost.size(); ++k) terms[result.costs[k].name] = i.term_cost[k];
+    history.push_back({{"stage", i.stage},
+                       {"iteration", i.index},
+                       {"cost", i.cost},
+                       {"step_m", i.step_m},
+                       {"smallest_gli", i.smallest_gli},
+                       {"deepest_penetration_m", i.deepest_penetration_m},
+                       {"hold_error_m", i.hold_error_m},
+                       {"seconds", i.seconds},
+                       {"terms", terms}});
+  }
+  Json terms = Json::array();
+  for (const TermCost& c : result.costs) {
+    terms.push_back({{"term", c.name},
+                     {"unit", c.unit},
+                     {"weight", c.weight},
+                     {"cost", c.cost},
+                     {"natural_cost", c.natural_cost},
+                     {"largest", c.largest}});
+  }
+  constexpr const char* kStatus[] = {"converged", "iteration limit", "time limit", "interrupted"};
+  return {
+      {"backend", result.solve.backend},
+      {"status", result.solve.stalled ? "stalled" : kStatus[static_cast<int>(result.solve.status)]},
+      {"initial_cost", result.solve.initial_cost},
+      {"cost", result.solve.cost},
+      {"iterations", result.solve.iterations},
+      {"linear_solves", result.solve.linear_solves},
+      {"terms", terms},
+      {"history", history}};
+}
+
+Json StartJson(const StartChoice& start) {
+  const auto cost = [](const std::optional<double>& c) { return c ? Json(*c) : Json(nullptr); };
+  return {{"requested", start.requested},
+          {"used", start.used},
+          {"reason", start.reason},
+          {"costs",
+           {{"simulated", cost(start.simulated_cost)}, {"template", cost(start.template_cost)}}}};
+}
+
+Json PlacementJson(const Placement& p) {
+  return {{"yaw_rad", p.yaw}, {"shift_m", {p.shift.x(), p.shift.y(), p.shift.z()}}};
+}
+
+// Where the solved motion of one figure went, and what it was read from.
+Json WriteBackJson(const RunFacts& run, int f) {
+  const RigFacts& facts = run.job.clip[f].facts;
+  const ClipFile& file = run.job.clip[f].file;
+  Json written = {{"file", run.rig[f].files[0].name},
+                  {"format", file.format},
+                  {"units", facts.metres_per_unit},
+                  {"up", std::string(1, facts.up)},
+                  {"largest_error_m", run.rig[f].error_m}};
+  if (file.format == "Acclaim") {
+    written["skeleton"] = run.rig[f].files[1].name;
+    written["fps"] = 1 / file.motion.frame_time;
+  }
+  if (file.format == "glTF") {
+    written["animation"] = kAnimationName;
+    if (!file.select.skin.empty()) written["skin"] = file.select.skin;
+  }
+  for (const NodeJoint& pair : run.rig[f].joints) {
+    written["joints"][run.job.input.body[f].nodes[pair.node].name] =
+        run.job.clip[f].file.motion.rig.joints[pair.joint].name;
+  }
+  return written;
+}
+
+Json SupportsJson(const RunFacts& run, int f) {
+  Json nodes = Json::array();
+  for (const int n : run.result.scene.posture.supports[f]) {
+    nodes.push_back(run.job.input.body[f].nodes[n].name);
+  }
+  return nodes;
+}
+
+}  // namespace
+
+Json RunReport(const RunFacts& run, const Metrics& source, const Metrics& baseline,
+               const Metrics& metrics) {
+  const RetargetResult& result = run.result;
+  Json report = {{"generator", kGenerator},
+                 {"format", 1},
+                 {"exit_code", run.exit_code},
+                 {"requirements_met", AllMet(run.checks)}};
+  report["inputs"] = InputsJson(run.options, run.job);
+  report["frames"] = result.scene.num_frames();
+  report["fps"] = result.scene.fps();
+  report.update(SubjectJson(run.subject, metrics));
+  for (int f = 0; f < 2; ++f) {
+    report["supports"][kFigure[f]] = SupportsJson(run, f);
+    report["placement"][kFigure[f]] = PlacementJson(result.placement[f]);
+    report["write_back"][kFigure[f]] = WriteBackJson(run, f);
+  }
+  report["metrics"] = ThreeMetricsJson(run.subject, source, &baseline, metrics);
+  report["requirements"] = ChecksJson(run.checks);
+  report["conflicts"] = ConflictsJson(run.conflicts);
+  report["warnings"] = result.warnings;
+  report["literal_tangles"] = result.tangles.literal.size();
+  report["solve"] = SolveJson(result);
+  report["simulation"] = SimulationJson(result.simulation);
+  report["start"] = StartJson(result.start);
+  report["iterations"] = result.solve.iterations;
+  report["timings"] = {{"start_s", result.start_seconds},
+                       {"simulation_s", result.simulation.seconds},
+                       {"solve_s", result.solve.seconds},
+                       {"frames_per_s", result.scene.num_frames() / result.solve.seconds}};
+  report["memory"] = {{"peak_bytes", PeakBytes()}};
+  report["versions"] = {{"retarget", kVersion},
+                        {"kernels", KernelName()},
+                        {"threads", NumThreads(run.settings.solve.threads)}};
+  VisitSettings(run.settings, [&](const std::string& key, const auto& value, auto&&...) {
+    report["configuration"][key] = value;
+  });
+  return report;
+}
+
+}  // namespace retarget

@@ -1,0 +1,56 @@
+#include "tools/api/template_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace retarget {
+
+Json TangleJson(const Body& a, const Body& b, const Tangle& t) {
+  return {{"a", {a.nodes[t.a.from].name, a.nodes[t.a.to].name}},
+          {"b", {b.nodes[t.b.from].name, b.nodes[t.b.to].name}},
+          {"gli", t.gli}};
+}
+
+std::string TangleLine(const Body& a, const Body& b, const Tangle& t) {
+  return fmt::format("a ({}, {}) x b ({}, {})", a.nodes[t.a.from].name, a.nodes[t.a.to].name,
+                     b.nodes[t.b.from].name, b.nodes[t.b.to].name);
+}
+
+std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags) {
+  std::vector<std::string> warnings;
+  for (const Tag& tag : tags) {
+    const std::string line = TangleLine(posture.body[0], posture.body[1], tag.tangle);
+    if (std::abs(tag.tangle.gli) < kWeakGli) {
+      warnings.push_back(
+          fmt::format("{} is weak: |GLI| {:.2f} is under 0.6", line, std::abs(tag.tangle.gli)));
+    }
+    if (tag.rho < kEasilyLost) {
+      warnings.push_back(
+          fmt::format("{} is easily lost: robustness radius {:.2f} is under 0.1", line, tag.rho));
+    }
+  }
+  if (tags.empty()) {
+    warnings.push_back("nothing is tangled in this posture");
+  }
+  return warnings;
+}
+
+TemplateCheck CheckTemplate(const TemplatePosture& posture) {
+  const Settings settings;
+  TemplateCheck check;
+  check.tangles = FindTemplateTangles(posture, settings.tangle);
+  Scene scene;
+  scene.body = posture.body;
+  scene.tangles = HoldTangles(check.tangles.tags, posture, settings.tangle.margin);
+  scene.holds = posture.holds;
+  for (int f = 0; f < 2; ++f) scene.source[f].frames = {posture.pose[f]};
+  const MeasureSubject subject = SubjectOf(scene);
+  const MotionView view = ViewOf(scene.body, scene.source);
+  check.metrics = Measure(subject, view, view);
+  check.checks = CheckRequirements(subject, check.metrics, settings.requirements);
+  check.warnings = TagWarnings(posture, check.tangles.tags);
+  return check;
+}
+
+}  // namespace retarget

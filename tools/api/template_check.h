@@ -1,0 +1,31 @@
+// What is right and wrong with a template posture: `retarget template --check` and the posing
+// session ask the same.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/metrics/requirements.h"
+#include "solver/start/fit_template.h"
+#include "tools/report/report.h"
+
+namespace retarget {
+
+struct TemplateCheck {
+  TemplateTangles tangles;
+  Metrics metrics;
+  std::vector<RequirementCheck> checks;
+  std::vector<std::string> warnings;  // weak tags and the like
+  bool met() const { return AllMet(checks); }
+};
+inline constexpr double kWeakGli = 0.6;     // turns: a tag under it is weak
+inline constexpr double kEasilyLost = 0.1;  // robustness radius of a tag (rad, m)
+TemplateCheck CheckTemplate(const TemplatePosture& posture);
+// What is to be said of weak tags.
+std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags);
+
+// "a (left_hand, right_hand) x b (neck, root)".
+std::string TangleLine(const Body& a, const Body& b, const Tangle& tangle);
+Json TangleJson(const Body& a, const Body& b, const Tangle& tangle);
+
+}  // namespace retarget

@@ -1,0 +1,91 @@
+// The commands of the program: each reads, does, prints, and returns the exit code of the contract
+// (0 done, 3 a requirement is missed, 4 a limit was hit, 130 interrupted). Bad input is thrown as
+// InputError (exit code 2).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/load_clip.h"
+#include "model/body/template_posture.h"
+#include "tools/api/options.h"
+
+namespace retarget {
+
+enum ExitCode {
+  kDone = 0,
+  kInternal = 1,
+  kBadInput = 2,
+  kMissed = 3,
+  kLimit = 4,
+  kInterrupted = 130
+};
+
+int RunRetarget(const RetargetOptions& options);
+
+// Runs the forward simulation alone and writes baseline.glb and source.glb.
+int RunSimulate(const RetargetOptions& options);
+
+int RunVerify(const std::string& folder, bool json);
+int RunCompare(const std::vector<std::string>& folders, bool json);
+int RunTangles(const std::string& path, bool json);
+int RunMap(const ClipOptions& clip, bool json, bool yaml);
+// The clip with left and right exchanged.
+int RunMirror(const ClipOptions& options, const std::string& out, bool force);
+// What is in a motion or character file of any format.
+int RunInspect(const ClipOptions& clip, bool json);
+int RunConfig(const std::string& config_path, const std::vector<std::string>& set);
+int RunTemplateCheck(const std::string& path, bool json);
+
+struct FromClipsOptions {
+  std::array<ClipOptions, 2> clip;
+  int frame = 0;  // of both clips, from 0
+  std::string out, name;
+  bool force = false;
+};
+int RunTemplateFromClips(const FromClipsOptions& options);
+
+TemplatePosture PostureFromClips(const FromClipsOptions& options);
+
+// `retarget pose`: what to start from, then operations in the order of the command line.
+struct PoseCommandOptions {
+  std::string template_path;  // empty: T-poses, or two clips
+  std::optional<FromClipsOptions> from_clips;
+  struct Step {
+    std::string name, value;  // of the option, without dashes
+  };
+  std::vector<Step> steps;
+  std::string out;
+  bool json = false, force = false;
+};
+int RunPose(const PoseCommandOptions& options);
+// Runs every hold of the folders (template.yaml, clips a and b) with default settings into a folder
+// each, and writes an index page. The worst exit code of all.
+struct GalleryOptions {
+  std::vector<std::string> holds;  // folders of holds, or holds
+  std::string out = "gallery", config_path;
+  std::vector<std::string> set;
+  int threads = -1;
+  bool force = false;
+};
+int RunGallery(const GalleryOptions& options);
+
+// `retarget studio`: serves the posing page until it is interrupted.
+struct StudioOptions {
+  std::string template_path, photo_path;  // to begin with; empty: none
+  std::string library;                    // folder; empty: the shipped one and the user's own
+  std::array<ClipOptions, 2> clip;        // to try a posture on
+  int port = 0;                           // 0: any that is free
+  bool browser = true;                    // open the page
+};
+int RunStudio(const StudioOptions& options);
+
+// Of a run's folder, or of a template's file.
+int RunRender(const std::string& path, const std::string& out, bool force);
+
+// Ctrl-C from here on: finish the iteration, write the best so far.
+void CatchInterrupts();
+
+}  // namespace retarget

@@ -1,0 +1,359 @@
+// The command line: options in, exit code out.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+#include "io/recognition/recognise.h"
+#include "io/settings_file.h"
+#include "tools/api/version.h"
+#include "tools/cli/commands.h"
+#include "tools/posing/words.h"
+#include "tools/studio/library.h"
+
+namespace retarget {
+
+int RunMap(const ClipOptions& options, bool json, bool yaml) {
+  if (yaml) {
+    fmt::print("{}", MapOfClip(options));
+    return kDone;
+  }
+  const LoadedClip clip = RecogniseClip(options);
+  fmt::print("{}",
+             json ? MapJson(clip.facts, clip.file.motion) : MapTable(clip.facts, clip.file.motion));
+  return kDone;
+}
+
+int RunConfig(const std::string& config_path, const std::vector<std::string>& set) {
+  Settings settings = config_path.empty() ? Settings{} : ReadSettings(config_path);
+  for (const std::string& assignment : set) SetByName(&settings, assignment);
+  fmt::print("{}", FormatSettings(settings));
+  return kDone;
+}
+
+namespace {
+
+// Options of one clip. The main command names them by figure, `retarget map` does not.
+void AddClipOptions(CLI::App* app, ClipOptions* clip, const std::string& figure, bool solve) {
+  const std::string suffix = figure.empty() ? "" : "-" + figure;
+  const std::string group = figure.empty() ? "Options" : "Clip " + figure;
+  clip->option = figure;
+  app->add_option("--units" + suffix, clip->units,
+                  "cm, m, mm, in, cmu or metres per unit (default: guess)")
+      ->group(group);
+  app->add_option("--up" + suffix, clip->up, "up axis (default: from the motion)")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->group(group);
+  app->add_option("--amc-fps" + suffix, clip->amc_fps, "rate of an Acclaim motion (120)")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->group(group);
+  app->add_option("--map" + suffix, clip->map, "joint map (YAML; see `retarget map --yaml`)")
+      ->group(group);
+  app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
+  if (!solve) return;
+  app->add_option("--character" + suffix, clip->character,
+                  "put the motion on this character (glTF, VRM, BVH) and solve on its body")
+      ->group(group);
+  app->add_option("--character-map" + suffix, clip->character_map, "joint map of the character")
+      ->group(group);
+  app->add_option("--start" + suffix, clip->start, "seconds into the clip")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
+  app->add_option("--stature" + suffix, clip->stature, "the motion on a body of this height (m)")
+      ->check(CLI::Range(0.5, 3.0))
+      ->group(group);
+}
+
+struct CommandLine {
+  RetargetOptions retarget;
+  FromClipsOptions from_clips;
+  PoseCommandOptions pose;
+  GalleryOptions gallery;
+  StudioOptions studio;
+  ClipOptions map_clip;
+  std::string folder, file, config, check, picture;
+  std::vector<std::string> set, clips, folders;
+  bool json = false, yaml = false, force = false;
+  int code = 0;
+
+  void Build(CLI::App* app) {
+    app->set_version_flag("--version", kGenerator);
+    app->require_subcommand(0, 1);
+    AddRetarget(app);
+    AddTools(app);
+    AddTemplate(app);
+    AddPose(app);
+    AddStudio(app);
+  }
+
+  void AddRetarget(CLI::App* app) {
+    AddScene(app);
+    CLI::App* simulate = app->add_subcommand(
+        "simulate", "the forward simulation alone: what `retarget` is compared with");
+    AddScene(simulate);
+    simulate->callback([this] {
+      RequireScene();
+      code = RunSimulate(retarget);
+    });
+  }
+
+  // The options that say which clips are to be tangled how.
+  void AddScene(CLI::App* app) {
+    RetargetOptions& o = retarget;
+    app->add_option(
+        "--clip-a", o.clip[0].path,
+        "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");
+    app->add_option("--clip-b", o.clip[1].path, "second clip");
+    app->add_option("--template", o.template_path, "template posture (YAML)");
+    app->add_option("--config", o.config_path,
+                    "weights and settings (YAML; see `retarget config`)");
+    app->add_option("--set", o.set, "one setting, such as weights.tangle=20 (repeatable)");
+    app->add_option("--out", o.out, "folder for the results")->capture_default_str();
+    app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
+    app->add_option("--show", o.show, "scene.glb shows capsule figures, or the glTF characters")
+        ->check(CLI::IsMember({"figures", "characters"}))
+        ->capture_default_str();
+    app->add_option("--fps", o.fps, "output frame rate")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
+    app->add_option("--template-at", o.template_at,
+                    "instant laid into the template, s from the starts")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    app->add_option("--threads", o.threads, "0: all cores")->check(CLI::Range(0, 256));
+    app->add_option("--progress", o.progress,
+                    "of each iteration on stderr: a table (on terminals), or JSON, one per line")
+        ->check(CLI::IsMember({"table", "json"}))
+        ->capture_default_str();
+    app->add_flag("--json", o.json, "print the report as JSON");
+    app->add_flag("--force", o.force, "overwrite files that no earlier run wrote");
+    AddClipOptions(app, &o.clip[0], "a", true);
+    AddClipOptions(app, &o.clip[1], "b", true);
+  }
+
+  void AddTools(CLI::App* app) {
+    CLI::App* verify = app->add_subcommand("verify", "recompute all metrics from a run's files");
+    verify->add_option("folder", folder, "what --out was")->required();
+    verify->add_flag("--json", json);
+    verify->callback([this] { code = RunVerify(folder, json); });
+
+    CLI::App* compare = app->add_subcommand("compare", "finished runs side by side");
+    compare->add_option("folders", folders, "what --out was, one or more")->required();
+    compare->add_flag("--json", json);
+    compare->callback([this] { code = RunCompare(folders, json); });
+
+    CLI::App* holds = app->add_subcommand("gallery", "run holds, and write a page that shows them");
+    holds
+        ->add_option("holds", gallery.holds,
+                     "folders with template.yaml, a.bvh and b.bvh, or folders of such")
+        ->default_str("the shipped holds");
+    holds->add_option("--out", gallery.out, "folder for the page and the runs")
+        ->capture_default_str();
+    holds->add_option("--config", gallery.config_path, "weights and settings (YAML)");
+    holds->add_option("--set", gallery.set, "one setting (repeatable)");
+    holds->add_option("--threads", gallery.threads, "0: all cores")->check(CLI::Range(0, 256));
+    holds->add_flag("--force", gallery.force, "overwrite files that no earlier run wrote");
+    holds->callback([this] {
+      if (gallery.holds.empty()) gallery.holds = {(ShippedDataFolder() / "holds").string()};
+      code = RunGallery(gallery);
+    });
+
+    CLI::App* tangles =
+        app->add_subcommand("tangles", "what is tangled in a template or in node positions");
+    tangles->add_option("file", file, "template (YAML) or positions (JSON)")->required();
+    tangles->add_flag("--json", json);
+    tangles->callback([this] { code = RunTangles(file, json); });
+
+    CLI::App* map = app->add_subcommand("map", "what is recognised in a clip");
+    map->add_option("file", map_clip.path, "clip: BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
+        ->required();
+    AddClipOptions(map, &map_clip, "", false);
+    CLI::Option* as_json = map->add_flag("--json", json);
+    map->add_flag("--yaml", yaml, "print the map as a file to edit")->excludes(as_json);
+    map->callback([this] {
+      map_clip.any_animation = true;
+      code = RunMap(map_clip, json, yaml);
+    });
+
+    CLI::App* mirror = app->add_subcommand("mirror", "a clip with left and right exchanged");
+    mirror->add_option("file", map_clip.path, "clip: BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
+        ->required();
+    mirror->add_option("--out", picture, "file to write, in the clip's own format")->required();
+    mirror->add_flag("--force", force, "overwrite the file");
+    AddClipOptions(mirror, &map_clip, "", false);
+    mirror->callback([this] { code = RunMirror(map_clip, picture, force); });
+
+    CLI::App* inspect = app->add_subcommand("inspect", "what is in a motion or character file");
+    inspect->add_option("file", map_clip.path, "BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
+        ->required();
+    inspect->add_flag("--json", json);
+    inspect->callback([this] {
+      map_clip.any_animation = true;
+      code = RunInspect(map_clip, json);
+    });
+
+    CLI::App* settings =
+        app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");
+    settings->add_option("--config", config, "start from this file");
+    settings->add_option("--set", set, "change one setting");
+    settings->callback([this] { code = RunConfig(config, set); });
+
+    CLI::App* render =
+        app->add_subcommand("render", "a picture of a run (source above result) or of a template");
+    render->add_option("path", folder, "what --out was, or a template (YAML)")->required();
+    render->add_option("--out", picture,
+                       "PNG file (default: scene.png in the folder; beside the template)");
+    render->add_flag("--force", force, "overwrite the file");
+    render->callback([this] {
+      const bool run = std::filesystem::is_directory(folder);
+      const std::string usual =
+          run ? folder + "/scene.png"
+              : std::filesystem::path(folder).replace_extension(".png").string();
+      code =
+          RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
+    });
+  }
+
+  void AddTemplate(CLI::App* app) {
+    CLI::App* posture = app->add_subcommand("template", "make or check a template posture");
+    posture->add_option("--check", check, "verify this template (YAML)");
+    posture->add_option("--from-clips", clips, "two clips that share a world")->expected(2);
+    posture->add_option("--frame", from_clips.frame, "frame of both clips, from 0");
+    posture->add_option("--out", from_clips.out, "template to write (YAML)");
+    posture->add_option("--name", from_clips.name, "name of the new template")
+        ->default_str("from clips");
+    posture->add_flag("--force", from_clips.force, "overwrite the file");
+    posture->add_flag("--json", json);
+    AddClipOptions(posture, &from_clips.clip[0], "a", false);
+    AddClipOptions(posture, &from_clips.clip[1], "b", false);
+    posture->callback([this] { code = RunTemplate(); });
+  }
+
+  int RunTemplate() {
+    if (!check.empty() && clips.empty()) return RunTemplateCheck(check, json);
+    if (!check.empty() || clips.empty() || from_clips.out.empty()) {
+      throw InputError("template: expected --check FILE, or --from-clips A B --frame K --out FILE");
+    }
+    for (int f = 0; f < 2; ++f) from_clips.clip[f].path = clips[f];
+    if (from_clips.name.empty()) from_clips.name = "from clips";
+    return RunTemplateFromClips(from_clips);
+  }
+
+  void AddPose(CLI::App* app) {
+    CLI::App* posing = app->add_subcommand(
+        "pose", "pose two figures: operations one after the other, as given (docs/pose.md)");
+    CLI::Option* start =
+        posing->add_option("file", pose.template_path, "template to start from (YAML)");
+    CLI::Option* rest =
+        posing->add_flag("--rest")->description("start from two T-poses")->excludes(start);
+    posing->add_option("--from-clips", clips, "start from two clips that share a world")
+        ->expected(2)
+        ->excludes(start)
+        ->excludes(rest);
+    posing->add_option("--frame", from_clips.frame, "frame of both clips, from 0");
+    posing->add_option("--out", pose.out, "template to write (YAML)");
+    posing->add_flag("--json", pose.json, "print tangles, overlaps and warnings as JSON");
+    posing->add_flag("--force", pose.force, "overwrite the file");
+    AddClipOptions(posing, &from_clips.clip[0], "a", false);
+    AddClipOptions(posing, &from_clips.clip[1], "b", false);
+    for (const PoseWord& word : PoseWords()) {
+      const std::string name = std::string("--") + word.name;
+      CLI::Option* option = *word.value
+                                ? posing->add_option(name)->type_name(word.value)->type_size(1)
+                                : posing->add_flag(name);
+      option->description(word.help)->group("Operations");
+      option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+    posing->callback([this, posing, rest] {
+      if (pose.template_path.empty() && clips.empty() && !rest->count()) {
+        throw InputError("pose: expected a template, --rest or --from-clips A B");
+      }
+      if (!clips.empty()) {
+        for (int f = 0; f < 2; ++f) from_clips.clip[f].path = clips[f];
+        from_clips.name = "from clips";
+        pose.from_clips = from_clips;
+      }
+      pose.steps = StepsInOrder(*posing);
+      code = RunPose(pose);
+    });
+  }
+
+  void AddStudio(CLI::App* app) {
+    CLI::App* page =
+        app->add_subcommand("studio", "pose two figures on a page in the browser (docs/studio.md)");
+    page->add_option("--template", studio.template_path, "template to open (YAML)");
+    page->add_option("--photo", studio.photo_path, "picture to pose over (PNG, JPEG, WebP)");
+    page->add_option("--library", studio.library,
+                     "folder of templates (default: the shipped ones and your own)");
+    page->add_option("--clip-a", studio.clip[0].path, "clip to try the posture on");
+    page->add_option("--clip-b", studio.clip[1].path, "clip to try the posture on");
+    page->add_option("--port", studio.port, "of 127.0.0.1; 0: any that is free")
+        ->check(CLI::Range(0, 65535));
+    page->add_flag("--no-browser,--print-url")->description("print the address only");
+    AddClipOptions(page, &studio.clip[0], "a", false);
+    AddClipOptions(page, &studio.clip[1], "b", false);
+    page->callback([this, page] {
+      studio.browser = page->count("--no-browser") == 0;
+      code = RunStudio(studio);
+    });
+  }
+
+  // What was given of the posing options, in the order of the command line.
+  static std::vector<PoseCommandOptions::Step> StepsInOrder(const CLI::App& posing) {
+    std::vector<PoseCommandOptions::Step> steps;
+    std::map<const CLI::Option*, size_t> used;
+    for (const CLI::Option* option : posing.parse_order()) {
+      if (option->get_group() != "Operations") continue;
+      const bool flag = option->get_expected_min() == 0;
+      const std::string value = flag ? "" : option->results().at(used[option]++);
+      steps.push_back({option->get_lnames().front(), value});
+    }
+    return steps;
+  }
+
+  void RequireScene() const {
+    const std::pair<const char*, const std::string*> required[] = {
+        {"--clip-a", &retarget.clip[0].path},
+        {"--clip-b", &retarget.clip[1].path},
+        {"--template", &retarget.template_path}};
+    for (const auto& [name, value] : required) {
+      if (value->empty())
+        throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
+    }
+  }
+
+  int RunMain() const {
+    RequireScene();
+    return RunRetarget(retarget);
+  }
+};
+
+}  // namespace
+}  // namespace retarget
+
+int main(int argc, char** argv) {
+  using namespace retarget;
+  CLI::App app(
+      "Two motions, each captured alone, become one scene of two people tangled with each other.",
+      "retarget");
+  CommandLine command;
+  command.Build(&app);
+  try {
+    app.parse(argc, argv);
+    return app.get_subcommands().empty() ? command.RunMain() : command.code;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    fmt::print(stderr, "retarget: {}; see `retarget --help`\n", error.what());
+    return kBadInput;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "retarget: {}\n", error.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "retarget: internal error: {}\n", error.what());
+    return kInternal;
+  }
+}

@@ -1,0 +1,181 @@
+// `retarget tangles`, `retarget template`: what is tangled in a posture, making and checking
+// templates.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/files.h"
+#include "io/settings_file.h"
+#include "io/template_file.h"
+#include "model/body/path.h"
+#include "solver/metrics/metrics.h"
+#include "solver/start/fit_template.h"
+#include "tools/api/clip_posture.h"
+#include "tools/api/template_check.h"
+#include "tools/cli/commands.h"
+#include "tools/report/report.h"
+
+namespace retarget {
+namespace {
+
+// Node positions as JSON, {"A": [[x, y, z] x 21], "B": ...}.
+std::array<std::vector<Vec3>, 2> PositionsFromJson(const Json& json, const std::string& path,
+                                                   size_t nodes) {
+  std::array<std::vector<Vec3>, 2> out;
+  for (int f = 0; f < 2; ++f) {
+    const char* key = f == 0 ? "A" : "B";
+    if (!json.is_object() || !json.contains(key)) {
+      throw InputError(
+          fmt::format("{}: expected {{\"A\": [[x, y, z] x {}], \"B\": ...}}, found no \"{}\"", path,
+                      nodes, key));
+    }
+    const Json& list = json.at(key);
+    if (!list.is_array() || list.size() != nodes) {
+      throw InputError(fmt::format("{}: \"{}\": expected {} node positions", path, key, nodes));
+    }
+    for (const Json& p : list) {
+      const bool good =
+          p.is_array() && p.size() == 3 &&
+          std::all_of(p.begin(), p.end(), [](const Json& x) { return x.is_number(); });
+      if (!good)
+        throw InputError(fmt::format("{}: \"{}\": expected positions [x, y, z]", path, key));
+      out[f].emplace_back(p[0], p[1], p[2]);
+      if (!out[f].back().allFinite())
+        throw InputError(fmt::format("{}: \"{}\": a position is not finite", path, key));
+    }
+  }
+  return out;
+}
+
+struct Found {
+  std::array<Body, 2> body;
+  TemplateTangles tangles;
+};
+
+Found FindIn(const std::string& path) {
+  const std::string text = ReadFile(path);
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  Found found;
+  if (first == std::string::npos || text[first] != '{') {
+    const TemplatePosture posture = ParseTemplate(text, path);
+    found.body = posture.body;
+    found.tangles = FindTemplateTangles(posture, {});
+    return found;
+  }
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(path + ": " + error.what());
+  }
+  const Body body = StandardBody(AverageMeasures(1.75));
+  found.body = {body, body};
+  const std::array<std::vector<Vec3>, 2> nodes = PositionsFromJson(json, path, body.nodes.size());
+  const PosedBody a = PosedFromNodes(body, nodes[0]), b = PosedFromNodes(body, nodes[1]);
+  const MatX table = SegmentGliTable(body, nodes[0], body, nodes[1]);
+  found.tangles.literal = FindTangles(body, body, table);
+  found.tangles.tags = ReduceTangles(body, a, body, b, found.tangles.literal, table);
+  return found;
+}
+
+}  // namespace
+
+int RunTangles(const std::string& path, bool json) {
+  const Found found = FindIn(path);
+  const Body &a = found.body[0], &b = found.body[1];
+  if (json) {
+    Json out = {{"literal", Json::array()}, {"tags", Json::array()}};
+    for (const Tangle& t : found.tangles.literal) out["literal"].push_back(TangleJson(a, b, t));
+    for (const Tag& tag : found.tangles.tags) {
+      Json entry = TangleJson(a, b, tag.tangle);
+      entry["rho"] = tag.rho;
+      entry["group_size"] = tag.group_size;
+      out["tags"].push_back(entry);
+    }
+    fmt::print("{}\n", out.dump(1));
+    return kDone;
+  }
+  fmt::print("{} literal tangles (Algorithm 1)\n", found.tangles.literal.size());
+  for (const Tangle& t : found.tangles.literal) {
+    fmt::print("  {:<64} {:+.4f}\n", TangleLine(a, b, t), t.gli);
+  }
+  fmt::print("{} tags\n", found.tangles.tags.size());
+  for (const Tag& tag : found.tangles.tags) {
+    fmt::print("  {:<64} {:+.4f}  rho {:.3f}  stands for {}\n", TangleLine(a, b, tag.tangle),
+               tag.tangle.gli, tag.rho, tag.group_size);
+  }
+  return kDone;
+}
+
+int RunTemplateCheck(const std::string& path, bool json) {
+  const TemplatePosture posture = ReadTemplate(path);
+  const TemplateCheck check = CheckTemplate(posture);
+  const TemplateTangles& tangles = check.tangles;
+  const Metrics& metrics = check.metrics;
+  const std::vector<RequirementCheck>& checks = check.checks;
+  const std::vector<std::string>& warnings = check.warnings;
+  const std::array<Body, 2>& bodies = posture.body;
+  const bool met = check.met();
+  if (json) {
+    Json out = {{"name", posture.name},
+                {"requirements_met", met},
+                {"requirements", ChecksJson(checks)},
+                {"tags", Json::array()},
+                {"warnings", warnings}};
+    for (const Tag& tag : tangles.tags) {
+      out["tags"].push_back(TangleJson(bodies[0], bodies[1], tag.tangle));
+      out["tags"].back()["rho"] = tag.rho;
+    }
+    fmt::print("{}\n", out.dump(1));
+    return met ? kDone : kMissed;
+  }
+  fmt::print("{}: {}\n", path, posture.name);
+  for (int f = 0; f < 2; ++f) {
+    const Body& body = posture.body[f];
+    fmt::print(
+        "{}: stature {:.2f} m, {} nodes, {} joints; feet {:.1f} cm below the floor, "
+        "self-penetration {:.1f} cm\n",
+        f == 0 ? "a" : "b", body.stature, body.num_nodes(), body.num_links() - 1,
+        100 * metrics.figure[f].floor_m, 100 * metrics.figure[f].self_penetration_m);
+  }
+  for (const Tag& tag : tangles.tags) {
+    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n", TangleLine(bodies[0], bodies[1], tag.tangle),
+               tag.tangle.gli, tag.rho);
+  }
+  for (size_t k = 0; k < metrics.hold_m.size(); ++k) {
+    fmt::print("hold {}: {:.1f} cm\n", k + 1, 100 * metrics.hold_m[k]);
+  }
+  fmt::print("penetration: {:.1f} cm\n", 100 * metrics.penetration_m);
+  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+  for (const RequirementCheck& c : checks) {
+    if (!c.met)
+      fmt::print("MISSED {}: {:.4g} {}, required {:.4g} {}\n", c.name, c.value, c.unit, c.limit,
+                 c.where);
+  }
+  return met ? kDone : kMissed;
+}
+
+TemplatePosture PostureFromClips(const FromClipsOptions& options) {
+  const LoadedClip a = LoadClip(options.clip[0]), b = LoadClip(options.clip[1]);
+  TemplatePosture posture;
+  try {
+    posture = PostureOfFrames({&a, &b}, {options.frame, options.frame}, true);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--") + error.what());
+  }
+  posture.name = options.name;
+  posture.description = fmt::format("frame {} of {} and {}", options.frame, options.clip[0].path,
+                                    options.clip[1].path);
+  return posture;
+}
+
+int RunTemplateFromClips(const FromClipsOptions& options) {
+  const TemplatePosture posture = PostureFromClips(options);
+  const std::string text = FormatTemplate(posture);
+  ParseTemplate(text, options.out);  // what is written can be read
+  WriteFile(options.out, text, options.force);
+  fmt::print("written to {}\n", options.out);
+  return kDone;
+}
+
+}  // namespace retarget

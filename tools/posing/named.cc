@@ -1,0 +1,68 @@
+#include "tools/posing/named.h"
+
+#include <array>
+
+namespace retarget {
+namespace {
+
+// In the order of Operation.
+constexpr std::array kVerbs = {"drag",
+                               "drag",
+                               "settle",
+                               "pin",
+                               "unpin",
+                               "option",
+                               "move",
+                               "turn",
+                               "turn",
+                               "turn",
+                               "move",
+                               "stature",
+                               "mirror",
+                               "exchange of a and b",
+                               "copy of a side",
+                               "reset",
+                               "reset",
+                               "new hold",
+                               "change of a hold",
+                               "removal of a hold",
+                               "supports",
+                               "leader",
+                               "tangles",
+                               "name",
+                               "description",
+                               "tags",
+                               "photo",
+                               "camera",
+                               "new posture"};
+static_assert(kVerbs.size() == std::variant_size_v<Operation>);
+
+template <typename Op>
+std::string PlaceOf(const Op& op, const TemplatePosture& posture) {
+  if constexpr (requires { op.figure; }) {
+    if (op.figure != 0 && op.figure != 1) return "";
+    const Body& body = posture.body[op.figure];
+    const std::string figure = op.figure == 0 ? "a" : "b";
+    if constexpr (requires { op.node; }) {
+      if (op.node >= 0 && op.node < body.num_nodes()) {
+        return figure + "/" + body.nodes[op.node].name;
+      }
+    } else if constexpr (requires { op.link; }) {
+      if (op.link >= 0 && op.link < body.num_links()) {
+        return figure + "/" + body.links[op.link].name;
+      }
+    }
+    return figure;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string Named(const Operation& operation, const TemplatePosture& posture) {
+  const std::string place =
+      std::visit([&](const auto& op) { return PlaceOf(op, posture); }, operation);
+  return kVerbs[operation.index()] + (place.empty() ? "" : " of " + place);
+}
+
+}  // namespace retarget

@@ -1,0 +1,13 @@
+// An operation as a few words, for a list of what can be undone.
+#pragma once
+
+#include <string>
+
+#include "tools/posing/operations.h"
+
+namespace retarget {
+
+// "drag of a/left_hand". Indices that are not valid are left out.
+std::string Named(const Operation& operation, const TemplatePosture& posture);
+
+}  // namespace retarget

@@ -1,0 +1,23 @@
+// Operations as words of the command line: an option's name and its value.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tools/posing/state.h"
+
+namespace retarget {
+
+// The options that do something to a posture, for the command line's table of contents.
+struct PoseWord {
+  const char* name;   // "drag"
+  const char* value;  // how its value reads; empty: takes none
+  const char* help;
+};
+const std::vector<PoseWord>& PoseWords();
+
+// Throws InputError: "--drag a/left_hnad=0,1,0: unknown node "left_hnad", did you mean ...".
+PoseStep ParsePoseStep(const std::string& name, const std::string& value, const PoseState& state);
+
+}  // namespace retarget

@@ -1,0 +1,77 @@
+#include "tools/report/html.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+
+namespace retarget {
+
+std::string EscapeHtml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string Words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string WithFrames(const std::string& text) {
+  static const std::regex kFrame("frame ([0-9]+)");
+  return std::regex_replace(EscapeHtml(text), kFrame, "<span data-frame=\"$1\">$&</span>");
+}
+
+std::string Decimal(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  // A rounded zero has no sign.
+  return text.find_first_not_of("-0.") == std::string::npos && text[0] == '-' ? text.substr(1)
+                                                                              : text;
+}
+
+HtmlTable::HtmlTable(const std::vector<Cell>& head) {
+  html_ = "<table>";
+  if (!head.empty()) html_ += "<thead><tr>";
+  for (const Cell& cell : head) {
+    html_ += fmt::format("<th scope=\"col\" class=\"{}\">{}</th>", cell.kind, cell.html);
+  }
+  html_ += head.empty() ? "<tbody>\n" : "</tr></thead><tbody>\n";
+}
+
+void HtmlTable::Row(const std::vector<Cell>& cells, const std::string& attributes) {
+  html_ += "<tr" + (attributes.empty() ? "" : " " + attributes) + ">";
+  for (size_t k = 0; k < cells.size(); ++k) {
+    const char* tag = k == 0 ? "th scope=\"row\"" : "td";
+    html_ += fmt::format("<{} class=\"{}\">{}</{}>", tag, cells[k].kind, cells[k].html,
+                         k == 0 ? "th" : "td");
+  }
+  html_ += "</tr>\n";
+  ++rows_;
+}
+
+std::string HtmlTable::Html() const { return html_ + "</tbody></table>"; }
+
+}  // namespace retarget

@@ -1,0 +1,130 @@
+#include "tools/report/metrics_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace retarget {
+namespace {
+
+double Number(const Json& metrics, const char* key) { return metrics.at(key).get<double>(); }
+
+std::vector<MetricRow> PairRows() {
+  return {{"tangles kept", "% of frames", "", 1,
+           [](const Json& m) { return Number(m, "tangle_kept_percent"); }},
+          {"smallest s GLI, also between frames", "turns", "tangle", 1,
+           [](const Json& m) {
+             return std::min(Number(m, "smallest_gli"), Number(m, "smallest_gli_between_frames"));
+           }},
+          {"pass-throughs", "", "pass-throughs", 1,
+           [](const Json& m) { return Number(m, "pass_throughs"); }},
+          {"deepest penetration", "cm", "penetration", 100,
+           [](const Json& m) {
+             return 100 *
+                    std::max(Number(m, "penetration_m"), Number(m, "penetration_between_frames_m"));
+           }},
+          {"penetration over 1 cm", "% of frames", "penetration over 1 cm", 1,
+           [](const Json& m) { return Number(m, "penetration_over_1cm_percent"); }},
+          {"hold error", "cm", "hold", 100, [](const Json& m) {
+             const std::vector<double> holds = m.at("hold_m");
+             return holds.empty() ? std::nan("")
+                                  : 100 * *std::max_element(holds.begin(), holds.end());
+           }}};
+}
+
+void AddFigureRows(const std::string& figure, std::vector<MetricRow>* rows) {
+  const auto add = [&](const char* name, const char* unit, const char* requirement, double scale,
+                       const char* key) {
+    rows->push_back(
+        {std::string(name) + " " + figure, unit,
+         *requirement ? std::string(requirement) + " " + figure : "", scale,
+         [figure, scale, key](const Json& m) { return scale * Number(m.at(figure), key); }});
+  };
+  add("foot drift", "cm", "foot drift", 100, "foot_drift_m");
+  add("foot speed over 1 cm/s", "% of stance", "", 1, "foot_speed_over_1cm_s_percent");
+  add("below the floor", "cm", "floor", 100, "floor_m");
+  add("self-penetration", "cm", "", 100, "self_penetration_m");
+  add("pose error", "cm", "", 1, "pose_error_cm");
+  add("joint edit", "deg", "", 1, "joint_edit_deg");
+  add("jerk, to the larger source", "x", "", 1, "jerk_ratio_larger");
+}
+
+// "hold" answers to "hold 1" and so on, "penetration" not to "penetration over 1 cm".
+bool AnswersTo(const std::string& requirement, const std::string& check) {
+  if (requirement.empty() || check.rfind(requirement, 0) != 0) return false;
+  return check.size() == requirement.size() ||
+         (check.size() > requirement.size() + 1 && check[requirement.size()] == ' ' &&
+          std::isdigit(static_cast<unsigned char>(check[requirement.size() + 1])));
+}
+
+bool Misses(const MetricRow& row, double value, double limit) {
+  return row.requirement == "tangle" ? value <= limit : value > limit;
+}
+
+}  // namespace
+
+std::vector<MetricRow> MetricRows() {
+  std::vector<MetricRow> rows = PairRows();
+  for (const char* figure : kFigure) AddFigureRows(figure, &rows);
+  return rows;
+}
+
+Json LimitOf(const MetricRow& row, const Json& requirements) {
+  for (const Json& check : requirements) {
+    if (AnswersTo(row.requirement, check.at("name"))) {
+      return row.scale * check.at("limit").get<double>();
+    }
+  }
+  return nullptr;
+}
+
+std::string MetricCell(const MetricRow& row, const Json& metrics, const Json& limit) {
+  const double value = row.value(metrics);
+  if (std::isnan(value)) return "- ";
+  const bool missed = !limit.is_null() && Misses(row, value, limit);
+  return fmt::format("{:.2f}{}", value, missed ? "*" : " ");
+}
+
+std::string RequiredCell(const MetricRow& row, const Json& limit) {
+  if (limit.is_null()) return "";
+  return fmt::format("{}{:.2f}", row.requirement == "tangle" ? "> " : "<= ", limit.get<double>());
+}
+
+std::string MetricsTable(const MeasureSubject& subject, const Metrics& source,
+                         const Metrics* baseline, const Metrics& result,
+                         const std::vector<RequirementCheck>& checks, const char* last_column) {
+  const Json requirements = ChecksJson(checks);
+  std::vector<std::pair<const char*, Json>> columns = {{"source", MetricsJson(subject, source)}};
+  if (baseline) columns.emplace_back("baseline", MetricsJson(subject, *baseline));
+  columns.emplace_back(last_column, MetricsJson(subject, result));
+  std::string out = fmt::format("{:<36}", "");
+  for (const auto& [name, metrics] : columns) out += fmt::format("{:>11} ", name);
+  out += fmt::format("{:>11}\n", "required");
+  for (const MetricRow& row : MetricRows()) {
+    const Json limit = LimitOf(row, requirements);
+    out += fmt::format("{:<36}", row.name);
+    for (const auto& [name, metrics] : columns) {
+      out += fmt::format("{:>12}", MetricCell(row, metrics, limit));
+    }
+    out += fmt::format("{:>11} {}\n", RequiredCell(row, limit), row.unit);
+  }
+  if (out.find('*') != std::string::npos) out += kStarNote;
+  for (size_t k = 0; k < subject.tangles.size(); ++k) {
+    const Tangle& t = subject.tangles[k].tag.tangle;
+    const auto name = [&](int f, int n) { return subject.body[f].nodes[n].name; };
+    out += fmt::format(
+        "tag {}: a ({}, {}) x b ({}, {}): template {:.2f}, smallest {:.3f}{}\n", k + 1,
+        name(0, t.a.from), name(0, t.a.to), name(1, t.b.from), name(1, t.b.to), t.gli,
+        result.tangles[k].min_signed_gli,
+        baseline ? fmt::format(" (baseline {:.3f})", baseline->tangles[k].min_signed_gli) : "");
+  }
+  for (const RequirementCheck& c : checks) {
+    if (c.met) continue;
+    out += fmt::format("MISSED {}: {:.4g} {}, required {:.4g}{}{}\n", c.name, c.value, c.unit,
+                       c.limit, c.where.empty() ? "" : " at ", c.where);
+  }
+  return out;
+}
+
+}  // namespace retarget

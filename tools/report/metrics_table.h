@@ -1,0 +1,35 @@
+// Metrics as rows, for every table that shows them: the terminal's and `retarget compare`.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/report/report.h"
+
+namespace retarget {
+
+// One line: what it is called, and how it is read from the metrics of report.json.
+struct MetricRow {
+  std::string name, unit;
+  std::string requirement;  // the checks it answers to ("hold" for "hold 1", ...); empty: none
+  double scale = 1;         // from the requirement's unit to this row's
+  std::function<double(const Json& metrics)> value;  // NaN: nothing to measure
+};
+std::vector<MetricRow> MetricRows();
+
+// The limit of a row (in its unit) among the requirements of report.json; null where there is none.
+Json LimitOf(const MetricRow& row, const Json& requirements);
+// "12.34*", the star where the limit is missed; "-" where there is nothing to measure.
+std::string MetricCell(const MetricRow& row, const Json& metrics, const Json& limit);
+std::string RequiredCell(const MetricRow& row, const Json& limit);
+inline constexpr const char* kStarNote = "* misses what is required\n";
+
+// "metric | source | baseline | result | required", one line each, with what is missed marked.
+// `baseline` may be null; `last_column` heads the motion that the checks are about.
+std::string MetricsTable(const MeasureSubject& subject, const Metrics& source,
+                         const Metrics* baseline, const Metrics& result,
+                         const std::vector<RequirementCheck>& checks,
+                         const char* last_column = "result");
+
+}  // namespace retarget

@@ -1,0 +1,74 @@
+#include "tools/report/page.h"
+
+#include "tools/report/embedded_page.h"
+#include "tools/report/tables.h"
+#include "tools/report/verdict.h"
+
+namespace retarget {
+namespace {
+
+// JSON that cannot end the script element it stands in: every "<" lies inside of a string.
+std::string ScriptJson(const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string Base64(const std::string& bytes) {
+  constexpr const char* kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t k = 0; k < bytes.size(); k += 3) {
+    unsigned group = 0;
+    for (size_t i = k; i < k + 3; ++i) {
+      group = group << 8 | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u);
+    }
+    for (size_t i = 0; i < 4; ++i) {
+      out += k + i > bytes.size() ? '=' : kDigits[group >> (18 - 6 * i) & 63];
+    }
+  }
+  return out;
+}
+
+std::string Element(const char* type, const char* id, const std::string& text) {
+  return std::string("<script type=\"") + type + "\" id=\"" + id + "\">" + text + "</script>\n";
+}
+
+// Replaces the one place called `marker`; the page's own build guarantees it.
+void Fill(std::string* page, const std::string& marker, const std::string& text) {
+  const std::string comment = "<!--retarget:" + marker + "-->";
+  const size_t at = page->find(comment);
+  if (at != std::string::npos) page->replace(at, comment.size(), text);
+}
+
+}  // namespace
+
+std::string FormatReportPage(const ReportPageData& data) {
+  Json report = data.report;
+  report["verdict"] = VerdictSentences(report);
+  if (EmbeddedReportPage().empty()) return FormatPlainPage(report, data.series);
+  std::string elements = Element("application/json", "report", ScriptJson(report)) +
+                         Element("application/json", "series", ScriptJson(data.series)) +
+                         Element("text/plain", "source-glb", Base64(data.source_glb));
+  if (!data.baseline_glb.empty()) {
+    elements += Element("text/plain", "baseline-glb", Base64(data.baseline_glb));
+  }
+  elements += Element("text/plain", "result-glb", Base64(data.result_glb));
+  std::string page(EmbeddedReportPage());
+  // The data last: nothing in it is searched for markers.
+  Fill(&page, "verdict", VerdictHtml(report));
+  Fill(&page, "tables", TablesHtml(report));
+  Fill(&page, "data", elements);
+  return page;
+}
+
+}  // namespace retarget

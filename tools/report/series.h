@@ -1,0 +1,14 @@
+// The curves of a run as JSON, for the report page. Numbers are rounded: they are drawn, not
+// reckoned with. Described in docs/report.md.
+#pragma once
+
+#include "solver/metrics/frame_metrics.h"
+#include "tools/report/report.h"
+
+namespace retarget {
+
+// Source, baseline and result of one scene; the baseline may be null.
+Json SeriesJson(const MeasureSubject& subject, const FrameSeries& source,
+                const FrameSeries* baseline, const FrameSeries& result);
+
+}  // namespace retarget

@@ -1,0 +1,16 @@
+// Pieces of the studio's answers. Inner part of tools/studio/routes.h.
+#pragma once
+
+#include <string>
+
+#include "tools/report/report.h"
+#include "tools/studio/routes.h"
+
+namespace retarget {
+
+StudioAnswer JsonAnswer(const Json& json);
+
+// A parameter of the address. Throws InputError where it is not there.
+const std::string& Parameter(const StudioRequest& request, const std::string& name);
+
+}  // namespace retarget

@@ -1,0 +1,241 @@
+#include "tools/studio/routes.h"
+
+#include <fmt/format.h>
+
+#include "io/template_file.h"
+#include "io/text/nearest_name.h"
+#include "io/text/printable.h"
+#include "tools/api/clip_posture.h"
+#include "tools/studio/answers.h"
+#include "tools/studio/error.h"
+#include "tools/studio/guard.h"
+#include "tools/studio/image.h"
+
+namespace retarget {
+namespace {
+
+constexpr size_t kMostOps = 64, kMostParameters = 16;
+constexpr int kMostFrames = 10'000'000;
+constexpr size_t kLongestId = 200, kLongestYaml = 1 << 20;  // bytes
+constexpr size_t kMostThumbnail = 700'000;                  // bytes of its base64
+
+std::string TextOr(const Fields& fields, const char* key, size_t most = kLongestId) {
+  return fields.Has(key) ? fields.Text(key, most) : std::string();
+}
+
+// A PNG of the page's canvas.
+std::string ThumbnailOf(const Fields& fields) {
+  if (!fields.Has("thumbnail")) return "";
+  std::string text = fields.Text("thumbnail", kMostThumbnail);
+  const std::string prefix = "data:image/png;base64,";
+  if (text.starts_with(prefix)) text.erase(0, prefix.size());
+  std::string bytes;
+  try {
+    bytes = FromBase64(text);
+  } catch (const InputError&) {
+  }
+  const auto kind = ImageKindOf(bytes);
+  if (!kind || kind->type != std::string("image/png"))
+    fields.Refuse("thumbnail", "a PNG in base64");
+  return bytes;
+}
+
+// The route that was meant, where none is called so.
+[[noreturn]] void RefuseRoute(const StudioRequest& request, const std::vector<std::string>& names) {
+  const std::string asked = request.method + " " + Printable(request.path);
+  throw StudioError(404,
+                    fmt::format("the studio does not know {}{}", asked, Suggestion(asked, names)));
+}
+
+}  // namespace
+
+StudioAnswer JsonAnswer(const Json& json) {
+  StudioAnswer answer;
+  answer.body = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return answer;
+}
+
+const std::string& Parameter(const StudioRequest& request, const std::string& name) {
+  const auto at = request.parameters.find(name);
+  if (at == request.parameters.end()) {
+    throw InputError(fmt::format("expected ?{}=... in the address", name));
+  }
+  return at->second;
+}
+
+StudioAnswer ErrorAnswer(int status, const std::string& sentence, const std::string& reason) {
+  Json json = {{"error", sentence}};
+  if (!reason.empty()) json["reason"] = reason;
+  StudioAnswer answer = JsonAnswer(json);
+  answer.status = status;
+  return answer;
+}
+
+StudioAnswer AnswerOf(const std::exception& error) {
+  if (const auto* studio = dynamic_cast<const StudioError*>(&error)) {
+    return ErrorAnswer(studio->status(), studio->what(), studio->reason());
+  }
+  if (dynamic_cast<const InputError*>(&error)) return ErrorAnswer(400, error.what());
+  return ErrorAnswer(500, std::string("internal error: ") + error.what());
+}
+
+StudioRoutes::StudioRoutes(StudioStart start, StudioLibrary* library, StudioClips* clips,
+                           StudioJobs* jobs)
+    : start_(std::move(start)), library_(library), clips_(clips), jobs_(jobs) {
+  AddSessionRoutes();
+  AddLibraryRoutes();
+  AddPhotoRoutes();
+  AddSolveRoutes();
+}
+
+StudioAnswer StudioRoutes::Answer(const StudioRequest& request) {
+  try {
+    return AnswerOrThrow(request);
+  } catch (const std::exception& error) {
+    return AnswerOf(error);
+  }
+}
+
+StudioAnswer StudioRoutes::AnswerOrThrow(const StudioRequest& request) {
+  if (request.parameters.size() > kMostParameters) throw InputError("too many parameters");
+  const auto route = routes_.find(request.method + " " + request.path);
+  if (route == routes_.end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, other] : routes_) names.push_back(name);
+    RefuseRoute(request, names);
+  }
+  return route->second(request);
+}
+
+StudioSessions::Locked StudioRoutes::SessionOf(const StudioRequest& request) {
+  return sessions_.Find(Parameter(request, "session"));
+}
+
+// -- Sessions ------------------------------------------------------------------------------------
+
+StudioPosture StudioRoutes::PostureToLoad(const Fields& fields) const {
+  const int given =
+      fields.Has("yaml") + fields.Has("template") + fields.Has("rest") + fields.Has("clips");
+  if (given != 1) throw InputError("expected one of yaml, template, rest, clips");
+  if (fields.Has("yaml")) {
+    StudioPosture out;
+    out.posture = ParseTemplate(fields.Text("yaml", kLongestYaml), "the text");
+    return out;
+  }
+  if (fields.Has("template")) {
+    return PostureOfLibrary(library_, fields.Text("template", kLongestId));
+  }
+  if (fields.Has("clips")) {
+    const Fields clips = fields.Object("clips");
+    clips.Only({"frame_a", "frame_b", "together"});
+    const int frame_a = clips.Integer("frame_a", 0, kMostFrames);
+    const int frame_b = clips.Integer("frame_b", 0, kMostFrames, frame_a);
+    return UnsavedPosture(
+        PostureOfFrames(clips_->Both(), {frame_a, frame_b}, clips.Bool("together", false)));
+  }
+  const Fields rest = fields.Object("rest");
+  rest.Only({"stature", "distance"});
+  double stature[2] = {1.75, 1.75};
+  if (rest.Has("stature")) {
+    const Fields of = rest.Object("stature");
+    of.Only({"a", "b"});
+    stature[0] = of.Number("a", 0.5, 3, stature[0]);
+    stature[1] = of.Number("b", 0.5, 3, stature[1]);
+  }
+  return UnsavedPosture(RestPosture(stature[0], stature[1], rest.Number("distance", 0, 100, 1)));
+}
+
+void StudioRoutes::AddSessionRoutes() {
+  routes_["POST /api/session"] = [this](const StudioRequest& request) {
+    const Message message = ParseMessage(request.body);
+    Fields(message, "").Only(std::vector<std::string>());
+    const std::string id = sessions_.Create(start_.posture);
+    Json start = {{"library", library_->folder()}};
+    if (start_.has_template) start["template"] = start_.posture.posture.name;
+    if (!start_.posture.photo.empty()) start["photo"] = true;
+    const Json clips = clips_->StartJson();
+    if (!clips.empty()) start["clips"] = clips;
+    Json reply = {{"session", id}, {"start", start}};
+    reply.update(sessions_.Find(id)->WholeReply());
+    return JsonAnswer(reply);
+  };
+  routes_["GET /api/state"] = [this](const StudioRequest& request) {
+    return JsonAnswer(SessionOf(request)->WholeReply());
+  };
+  routes_["GET /api/yaml"] = [this](const StudioRequest& request) {
+    return StudioAnswer{200, "text/yaml; charset=utf-8", SessionOf(request)->Text()};
+  };
+  routes_["POST /api/load"] = [this](const StudioRequest& request) {
+    const Message message = ParseMessage(request.body);
+    const Fields fields(message, "");
+    fields.Only({"session", "yaml", "template", "rest", "clips"});
+    const auto session = sessions_.Find(fields.Text("session", kLongestId));
+    session->Load(PostureToLoad(fields));
+    return JsonAnswer(session->WholeReply());
+  };
+  routes_["POST /api/do"] = [this](const StudioRequest& request) {
+    const Message message = ParseMessage(request.body);
+    const Fields fields(message, "");
+    fields.Only({"session", "ops", "live"});
+    const bool live = fields.Bool("live", false);
+    const std::vector<Fields> ops = fields.ObjectList("ops", kMostOps);
+    const auto session = sessions_.Find(fields.Text("session", kLongestId));
+    const auto result = session->Do(ops, live);
+    return JsonAnswer(session->Reply(live, result));
+  };
+}
+
+// -- Library -------------------------------------------------------------------------------------
+
+void StudioRoutes::AddLibraryRoutes() {
+  routes_["GET /api/library"] = [this](const StudioRequest&) {
+    return JsonAnswer({{"folder", library_->folder()}, {"templates", library_->List()}});
+  };
+  routes_["GET /api/library/thumbnail"] = [this](const StudioRequest& request) {
+    return StudioAnswer{200, "image/png", library_->Thumbnail(Parameter(request, "id"))};
+  };
+  routes_["POST /api/save"] = [this](const StudioRequest& request) {
+    const Message message = ParseMessage(request.body);
+    const Fields fields(message, "");
+    fields.Only({"session", "id", "as", "overwrite", "thumbnail"});
+    const std::string thumbnail = ThumbnailOf(fields);
+    const auto session = sessions_.Find(fields.Text("session", kLongestId));
+    return JsonAnswer(session->Save(library_, TextOr(fields, "id"), TextOr(fields, "as"),
+                                    fields.Bool("overwrite", false), thumbnail));
+  };
+  routes_["POST /api/duplicate"] = [this](const StudioRequest& request) {
+    const Message message = ParseMessage(request.body);
+    const Fields fields(message, "");
+    fields.Only({"id", "as"});
+    return JsonAnswer({{"id", library_->Duplicate(fields.Text("id", kLongestId),
+                                                  fields.Text("as", kLongestId))}});
+  };
+  routes_["POST /api/delete"] = [this](const StudioRequest& request) {
+    const Message message = ParseMessage(request.body);
+    const Fields fields(message, "");
+    fields.Only({"id"});
+    library_->Delete(fields.Text("id", kLongestId));
+    return JsonAnswer(Json::object());
+  };
+}
+
+void StudioRoutes::AddPhotoRoutes() {
+  routes_["GET /api/photo"] = [this](const StudioRequest& request) {
+    const auto session = SessionOf(request);
+    const std::string* photo = session->photo();
+    if (!photo) throw StudioError(404, "this posture has no photo");
+    return StudioAnswer{200, ImageKindOf(*photo)->type, *photo};
+  };
+  routes_["POST /api/photo"] = [this](const StudioRequest& request) {
+    const auto session = SessionOf(request);
+    session->SetPhotoBytes(request.body);
+    return JsonAnswer(session->Reply(false));
+  };
+  routes_["DELETE /api/photo"] = [this](const StudioRequest& request) {
+    const auto session = SessionOf(request);
+    session->RemovePhoto();
+    return JsonAnswer(session->Reply(false));
+  };
+}
+
+}  // namespace retarget

@@ -1,0 +1,210 @@
+#include "tools/studio/state.h"
+
+#include <cmath>
+
+#include "io/template_keys.h"
+#include "model/geometry/so3.h"
+
+namespace retarget {
+namespace {
+
+constexpr double kSamePlace = 1e-9;  // m
+
+// To what is seen: a message is half as long so.
+double Rounded(double x) { return std::round(1e6 * x) / 1e6 + 0.0; }  // + 0.0 makes -0 a 0
+Json VectorJson(const Vec3& v) { return {Rounded(v.x()), Rounded(v.y()), Rounded(v.z())}; }
+Json QuatJson(const Quat& q) {
+  return {Rounded(q.x()), Rounded(q.y()), Rounded(q.z()), Rounded(q.w())};
+}
+Json DegreesJson(const Quat& q) { return VectorJson(LogSo3(q) / kDegree); }
+
+Json LimitJson(const JointLimit& limit, bool locked) {
+  if (locked) return {{"kind", "fixed"}};
+  const Json twist = {limit.twist_min / kDegree, limit.twist_max / kDegree};
+  if (limit.hinge_axis != Vec3::Zero()) {
+    return {{"kind", "hinge"},
+            {"axis", VectorJson(limit.axis)},
+            {"hinge_axis", VectorJson(limit.hinge_axis)},
+            {"bend", {limit.bend_min / kDegree, limit.bend_max / kDegree}},
+            {"hinge_play", limit.hinge_play / kDegree},
+            {"twist", twist}};
+  }
+  if (limit.swing_max >= kPi && limit.twist_min <= -kPi && limit.twist_max >= kPi) {
+    return {{"kind", "free"}};
+  }
+  return {{"kind", "swing_twist"},
+          {"axis", VectorJson(limit.axis)},
+          {"swing_centre", VectorJson(limit.swing_centre)},
+          {"swing_max", limit.swing_max / kDegree},
+          {"twist", twist}};
+}
+
+// The node at a link's joint centre; null where there is none.
+Json NodeAtLink(const Body& body, const PosedBody& rest, int link) {
+  for (int n = 0; n < body.num_nodes(); ++n) {
+    if ((rest.node[n] - rest.centre[link]).norm() < kSamePlace) return body.nodes[n].name;
+  }
+  return nullptr;
+}
+
+Json BodyJson(const Body& body) {
+  Json nodes = Json::array(), links = Json::array();
+  for (const Node& node : body.nodes) {
+    nodes.push_back({{"name", node.name},
+                     {"parent", node.parent},
+                     {"link", node.link},
+                     {"radius_m", node.radius}});
+  }
+  const PosedBody rest = PoseBody(body, RestPose(body));
+  for (int l = 0; l < body.num_links(); ++l) {
+    const Link& link = body.links[l];
+    links.push_back({{"name", link.name},
+                     {"parent", link.parent},
+                     {"node", NodeAtLink(body, rest, l)},
+                     {"limits", LimitJson(link.limit, link.locked)}});
+  }
+  return {{"stature", body.stature}, {"nodes", nodes}, {"links", links}};
+}
+
+Json FigureJson(const Body& body, const Pose& pose) {
+  const PosedBody posed = PoseBody(body, pose);
+  Json nodes = Json::array(), frames = Json::array(), centres = Json::array(),
+       turns = Json::array();
+  for (const Vec3& p : posed.node) nodes.push_back(VectorJson(p));
+  for (int l = 0; l < body.num_links(); ++l) {
+    frames.push_back(QuatJson(Quat(posed.rotation[l])));
+    centres.push_back(VectorJson(posed.centre[l]));
+    turns.push_back(DegreesJson(pose.rotation[l]));
+  }
+  return {{"stature", body.stature},
+          {"root",
+           {{"position", VectorJson(pose.root_position)},
+            {"rotation_vector", DegreesJson(pose.rotation[0])}}},
+          {"nodes", nodes},
+          {"frames", frames},
+          {"centres", centres},
+          {"rotation_vectors", turns}};
+}
+
+Json NodesJson(const Body& body, const std::vector<int>& nodes) {
+  Json out = Json::array();
+  for (const int n : nodes) out.push_back(body.nodes[n].name);
+  return out;
+}
+
+Json PinsJson(const PoseState& state) {
+  Json out = Json::array();
+  for (const PinnedNode& pin : state.pins) {
+    Json entry = {{"figure", kFigure[pin.figure]},
+                  {"node", state.posture.body[pin.figure].nodes[pin.node].name},
+                  {"position", VectorJson(pin.position)}};
+    if (pin.ray) {
+      entry["ray"] = {{"origin", VectorJson(pin.ray->origin)},
+                      {"direction", VectorJson(pin.ray->direction)}};
+    }
+    out.push_back(entry);
+  }
+  return out;
+}
+
+Json HoldPointJson(const HoldPoint& point, const std::array<Body, 2>& body) {
+  Json out = {{"figure", FigureNames()[point.figure]}};
+  if (point.figure != kWorld) out["node"] = body[point.figure].nodes[point.node].name;
+  out["offset"] = VectorJson(point.offset);
+  return out;
+}
+
+Json HoldsJson(const TemplatePosture& posture) {
+  const std::array<PosedBody, 2> posed = PosedFigures(posture);
+  Json out = Json::array();
+  for (const Hold& hold : posture.holds) {
+    const Vec3 from = HoldPosition(hold.from, posture.body, posed);
+    const Vec3 to = HoldPosition(hold.to, posture.body, posed);
+    out.push_back({{"from", HoldPointJson(hold.from, posture.body)},
+                   {"to", HoldPointJson(hold.to, posture.body)},
+                   {"rotation", hold.rotation},
+                   {"error_m", (from - to).norm()},
+                   {"from_place", VectorJson(from)},
+                   {"to_place", VectorJson(to)}});
+  }
+  return out;
+}
+
+Json RequestsJson(const TemplatePosture& posture) {
+  Json out = Json::array();
+  for (const TangleRequest& t : posture.tangles) {
+    Json entry = {{"a", NodesJson(posture.body[0], {t.a.from, t.a.to})},
+                  {"b", NodesJson(posture.body[1], {t.b.from, t.b.to})}};
+    if (t.from_s) entry["from"] = *t.from_s;
+    if (t.to_s) entry["to"] = *t.to_s;
+    out.push_back(entry);
+  }
+  return out;
+}
+
+Json OptionsJson(const PoseOptions& o) {
+  return {{"holds", o.holds}, {"limits", o.limits},   {"penetration", o.penetration},
+          {"floor", o.floor}, {"tangles", o.tangles}, {"feet", o.feet},
+          {"root", o.root}};
+}
+
+Json ViewJson(const std::optional<TemplatePhoto>& photo) {
+  if (!photo) return nullptr;
+  return {{"file", photo->file},
+          {"opacity", photo->opacity},
+          {"scale", photo->scale},
+          {"offset", {photo->offset.x(), photo->offset.y()}}};
+}
+Json ViewJson(const std::optional<TemplateCamera>& camera) {
+  if (!camera) return nullptr;
+  return {{"eye", VectorJson(camera->eye)},
+          {"target", VectorJson(camera->target)},
+          {"fov_deg", camera->fov_deg}};
+}
+
+}  // namespace
+
+Json BodiesJson(const std::array<Body, 2>& body) {
+  return {{"a", BodyJson(body[0])}, {"b", BodyJson(body[1])}};
+}
+
+Json PostureStateJson(const PoseSession& session) {
+  const PoseState& state = session.state();
+  const TemplatePosture& posture = state.posture;
+  const auto leader = [&](int f) {
+    return posture.root[f] == RootLeader::kPartner ? "partner" : "world";
+  };
+  Json out = {{"can_undo", session.can_undo()}, {"can_redo", session.can_redo()}};
+  if (session.can_undo()) out["undo_text"] = session.undo_text();
+  out["name"] = posture.name;
+  out["description"] = posture.description;
+  out["tags_words"] = posture.tags;
+  for (int f = 0; f < 2; ++f) {
+    out["figures"][kFigure[f]] = FigureJson(posture.body[f], posture.pose[f]);
+    out["supports"][kFigure[f]] = NodesJson(posture.body[f], posture.supports[f]);
+    out["root"][kFigure[f]] = leader(f);
+  }
+  out["pins"] = PinsJson(state);
+  out["options"] = OptionsJson(state.options);
+  out["holds"] = HoldsJson(posture);
+  out["tangles"] = RequestsJson(posture);
+  out["photo"] = ViewJson(posture.photo);
+  out["camera"] = ViewJson(posture.camera);
+  return out;
+}
+
+Json PoseResultJson(const PoseResult& result, const TemplatePosture& posture) {
+  Json out = {{"drag_error_m", result.drag_error_m}, {"pin_error_m", result.pin_error_m},
+              {"stalled", result.stalled},           {"converged", result.converged},
+              {"iterations", result.iterations},     {"ms", 1000 * result.seconds}};
+  if (const auto& blocked = result.blocked) {
+    for (int k = 0; k < 2; ++k) {
+      const int f = blocked->figure[k];
+      out["blocked"].push_back(std::string(kFigure[f]) + "/" +
+                               posture.body[f].nodes[blocked->node[k]].name);
+    }
+  }
+  return out;
+}
+
+}  // namespace retarget

@@ -1,0 +1,22 @@
+// What the studio's page is told of a session, as JSON. Lengths in m, angles in degrees,
+// quaternions [x, y, z, w]; schema in docs/studio.md.
+#pragma once
+
+#include <array>
+
+#include "solver/optimizer/pose_solve.h"
+#include "tools/posing/session.h"
+#include "tools/report/report.h"
+
+namespace retarget {
+
+// What does not change with the pose: {a: {stature, nodes, links}, b: ...}.
+Json BodiesJson(const std::array<Body, 2>& body);
+
+// Figures, pins, options and all that the template says; without the queries.
+Json PostureStateJson(const PoseSession& session);
+
+// What the solver did: {drag_error_m, pin_error_m, blocked?, stalled, converged, iterations, ms}.
+Json PoseResultJson(const PoseResult& result, const TemplatePosture& posture);
+
+}  // namespace retarget
