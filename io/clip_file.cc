@@ -9,7 +9,7 @@
 
 #include "io/gltf/container.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -273,4 +273,4 @@ ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const 
   return path;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -12,7 +12,7 @@
 #include "io/bvh/bvh.h"
 #include "io/gltf/clip.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Where a clip is: a path, with what some formats need beside it:
 //   walk.bvh
@@ -71,4 +71,4 @@ ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const 
 // Name of the animation that is added to a glTF file.
 inline constexpr const char* kAnimationName = "retargeted";
 
-}  // namespace retarget
+}  // namespace retarget::io

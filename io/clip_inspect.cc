@@ -9,7 +9,7 @@
 #include "io/gltf/container.h"
 #include "io/text/printable.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr size_t kMostNames = 20;
@@ -87,4 +87,4 @@ std::vector<NamedFact> InspectClip(const std::string& text) {
   return facts;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace retarget {
+namespace retarget::io {
 
 struct NamedFact {
   std::string name, value;
@@ -14,4 +14,4 @@ struct NamedFact {
 // `text` as ParseClipPath takes it. Throws InputError where the file cannot be read.
 std::vector<NamedFact> InspectClip(const std::string& text);
 
-}  // namespace retarget
+}  // namespace retarget::io

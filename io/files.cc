@@ -10,7 +10,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,4 +117,4 @@ void WriteFile(const std::string& path, const std::string& bytes, bool force) {
   fs::rename(temporary, path);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

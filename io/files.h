@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace retarget {
+namespace retarget::io {
 
 std::string ReadFile(const std::string& path);  // throws InputError
 // FNV-1a of the bytes, 64 bits in hexadecimal: tells inputs apart, no more.
@@ -29,4 +29,4 @@ class OutputSet {
 // One file, the same way; refuses to overwrite unless `force`.
 void WriteFile(const std::string& path, const std::string& bytes, bool force);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -8,7 +8,7 @@
 #include "io/files.h"
 #include "io/map_file.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // A measured capsule is believed between these shares of the tabulated one.
@@ -189,4 +189,4 @@ LoadedClip LoadClip(const ClipOptions& options) {
   return clip;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

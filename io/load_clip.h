@@ -9,7 +9,7 @@
 #include "io/recognition/recognise.h"
 #include "model/rig/binding.h"
 
-namespace retarget {
+namespace retarget::io {
 
 struct ClipOptions {
   std::string path;            // as ParseClipPath takes it
@@ -55,4 +55,4 @@ LoadedClip RecogniseClip(const ClipOptions& options);
 // The clip's joint map as a file to edit: a draft where the figure is refused.
 std::string MapOfClip(const ClipOptions& options);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -15,7 +15,7 @@
 #include "io/text/yaml_reader.h"
 #include "model/rig/tree.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr size_t kNearestShown = 3;
@@ -166,4 +166,4 @@ MapFile ReadMap(const std::string& path, const Rig& rig) {
   return ParseMap(ReadTextFile(path, "a joint map"), path, rig);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

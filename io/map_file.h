@@ -7,7 +7,7 @@
 
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 struct MapFile {
   JointMap map;  // profile "by hand"
@@ -27,4 +27,4 @@ std::string FormatMap(const RigMotion& motion, const RigFacts& facts);
 // The same for a figure that was refused (`reason`): what its names tell, the rest left open.
 std::string FormatMapDraft(const RigMotion& motion, const std::string& reason);
 
-}  // namespace retarget
+}  // namespace retarget::io

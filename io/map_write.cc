@@ -11,7 +11,7 @@
 #include "io/text/printable.h"
 #include "io/text/yaml_reader.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Well-formed UTF-8, which YAML demands (RFC 3629; overlong forms are let pass).
@@ -132,4 +132,4 @@ std::string FormatMapDraft(const RigMotion& motion, const std::string& reason) {
   return writer.text();
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

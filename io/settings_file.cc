@@ -9,7 +9,7 @@
 #include "io/text/nearest_name.h"
 #include "io/text/yaml_reader.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // A key of the table is "group.name".
@@ -148,4 +148,4 @@ std::string FormatSettings(const Settings& settings) {
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -10,7 +10,7 @@
 
 #include "model/settings.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // The defaults, and over them the keys of the file. An empty file is all defaults.
 Settings ReadSettings(const std::string& path);
@@ -23,4 +23,4 @@ void SetByName(Settings* settings, const std::string& assignment);
 // Every key, each with its default, unit and meaning as a comment. Reads back to equal settings.
 std::string FormatSettings(const Settings& settings);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -8,7 +8,7 @@
 #include "io/template_keys.h"
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr double kMinStature = 0.5, kMaxStature = 3;  // m
@@ -115,4 +115,4 @@ void ReadFigure(const YamlValue& value, Body* body, Pose* pose) {
   *pose = ReadPose(value, *body);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -7,7 +7,7 @@
 #include "model/body/body.h"
 #include "model/body/pose.h"
 
-namespace retarget {
+namespace retarget::io {
 
 inline constexpr double kMaxPosition = 1000;  // m, of positions
 
@@ -17,4 +17,4 @@ Vec3 ReadVector(const YamlValue& value, double most, const std::string& unit);
 // One figure: its body (`stature` or `lengths`, and `radii`) and its pose.
 void ReadFigure(const YamlValue& value, Body* body, Pose* pose);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -12,7 +12,7 @@
 #include "io/template_keys.h"
 #include "io/text/yaml_reader.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr double kMaxTime = 1e6;  // s
@@ -222,4 +222,4 @@ TemplatePosture ParseTemplate(const std::string& text, const std::string& name) 
   return PostureFrom(ParseYaml(text, name));
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

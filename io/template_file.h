@@ -5,7 +5,7 @@
 
 #include "model/body/template_posture.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Reads a template on bodies of StandardBody's table. Strict: InputError with file:line and dotted
 // path on unknown, missing or repeated keys, wrong types and values out of range.
@@ -18,4 +18,4 @@ TemplatePosture ParseTemplate(const std::string& text, const std::string& name);
 // locked links nothing. A hold's relative rotation is not written: it is that of the posture.
 std::string FormatTemplate(const TemplatePosture& posture);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -6,7 +6,7 @@
 
 #include "model/body/body.h"
 
-namespace retarget {
+namespace retarget::io {
 
 inline constexpr int kTemplateFormat = 1;  // version
 
@@ -50,4 +50,4 @@ inline std::vector<std::string> LinkNames(const Body& body) {
   return names;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -13,7 +13,7 @@
 #include "io/text/yaml_reader.h"
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr double kSameBody = 1e-9;  // m
@@ -209,4 +209,4 @@ std::string FormatTemplate(const TemplatePosture& posture) {
   return out + TanglesText(posture) + ViewText(posture);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

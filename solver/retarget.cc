@@ -6,7 +6,7 @@
 #include "solver/metrics/requirements.h"
 #include "solver/start/start.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 std::string Describe(const Scene& scene, const Tangle& t) {
@@ -144,4 +144,4 @@ RetargetResult Retarget(const RetargetInput& input, const Settings& settings,
   return result;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

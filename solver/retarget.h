@@ -12,7 +12,7 @@
 #include "solver/start/fit_template.h"
 #include "solver/start/placement.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 struct RetargetInput {
   std::array<Body, 2> body;
@@ -52,4 +52,4 @@ RetargetResult Retarget(const RetargetInput& input, const Settings& settings,
 // All but the simulation and the solve: what the problem would be.
 RetargetResult Prepare(const RetargetInput& input, const Settings& settings);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -16,7 +16,7 @@
 #include "io/text/printable.h"
 #include "model/geometry/euler_angles.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using acclaim::LineReader;
@@ -204,4 +204,4 @@ AcclaimFile ReadAcclaim(const std::string& asf_path, const std::string& amc_path
                       fps);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

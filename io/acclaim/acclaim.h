@@ -13,7 +13,7 @@
 
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Kinds of a degree of freedom: 0..2 = tx, ty, tz, 3..5 = rx, ry, rz.
 inline constexpr int kFirstRotationDof = 3;
@@ -60,4 +60,4 @@ std::string FormatAmc(const AcclaimFile& original, const RigMotion& motion, doub
 // The skeleton's text with its lengths multiplied by `scale`; with 1 its very bytes.
 std::string FormatAsf(const AcclaimFile& original, double scale = 1.0);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -7,7 +7,7 @@
 #include "io/text/cursor.h"
 #include "model/geometry/euler_angles.h"
 
-namespace retarget::acclaim {
+namespace retarget::io::acclaim {
 namespace {
 
 // A bound that no real file reaches.
@@ -78,4 +78,4 @@ void Assemble(const std::vector<BoneBlock>& blocks, const LineReader& lines, Ske
   }
 }
 
-}  // namespace retarget::acclaim
+}  // namespace retarget::io::acclaim

@@ -6,7 +6,7 @@
 
 #include "model/geometry/euler_angles.h"
 
-namespace retarget::acclaim {
+namespace retarget::io::acclaim {
 namespace {
 
 // A radian of orientation counts as much as a displacement by this part of all bones' lengths: 2 to
@@ -208,4 +208,4 @@ BoneValues FitFrame(const AcclaimFile& file, const RigFrame& frame, double scale
   return values;
 }
 
-}  // namespace retarget::acclaim
+}  // namespace retarget::io::acclaim

@@ -6,7 +6,7 @@
 
 #include "io/acclaim/acclaim.h"
 
-namespace retarget::acclaim {
+namespace retarget::io::acclaim {
 
 // Number of a bone's turns, and their axes: the outermost (last) turn first, filled up to three.
 int NumTurns(const AcclaimBone& bone);
@@ -26,4 +26,4 @@ struct BoneValues {
 BoneValues FitFrame(const AcclaimFile& file, const RigFrame& frame, double scale,
                     const BoneValues& previous);
 
-}  // namespace retarget::acclaim
+}  // namespace retarget::io::acclaim

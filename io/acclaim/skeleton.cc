@@ -12,7 +12,7 @@
 #include "io/text/printable.h"
 #include "model/geometry/euler_angles.h"
 
-namespace retarget::acclaim {
+namespace retarget::io::acclaim {
 namespace {
 
 using bvh::SameWord;
@@ -252,4 +252,4 @@ Skeleton ReadSkeleton(std::string_view text, const std::string& name) {
   return SkeletonReader(text, name).Read();
 }
 
-}  // namespace retarget::acclaim
+}  // namespace retarget::io::acclaim

@@ -12,7 +12,7 @@
 #include "io/acclaim/acclaim.h"
 #include "io/acclaim/text.h"
 
-namespace retarget::acclaim {
+namespace retarget::io::acclaim {
 
 struct Skeleton {
   Rig rig;  // joint 0 is the root
@@ -43,4 +43,4 @@ std::string LowerCase(std::string_view word);
 
 Skeleton ReadSkeleton(std::string_view text, const std::string& name);
 
-}  // namespace retarget::acclaim
+}  // namespace retarget::io::acclaim

@@ -8,7 +8,7 @@
 #include "io/text/cursor.h"
 #include "model/geometry/types.h"
 
-namespace retarget::acclaim {
+namespace retarget::io::acclaim {
 namespace {
 
 bool Separates(char c) { return bvh::IsBlank(c) || c == ',' || c == '(' || c == ')'; }
@@ -68,4 +68,4 @@ double LineReader::Number(size_t index, const std::string& what) const {
   return value;
 }
 
-}  // namespace retarget::acclaim
+}  // namespace retarget::io::acclaim

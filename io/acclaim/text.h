@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace retarget::acclaim {
+namespace retarget::io::acclaim {
 
 // Walks the lines that hold words. '#' begins a comment; commas and parentheses are blanks.
 class LineReader {
@@ -40,4 +40,4 @@ class LineReader {
   std::vector<std::string_view> words_;
 };
 
-}  // namespace retarget::acclaim
+}  // namespace retarget::io::acclaim

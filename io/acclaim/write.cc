@@ -8,7 +8,7 @@
 #include "io/acclaim/skeleton.h"
 #include "io/text/cursor.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // As many digits as the value needs, at most `digits` behind the point.
@@ -69,4 +69,4 @@ std::string FormatAsf(const AcclaimFile& original, double scale) {
   return out + text.substr(at);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

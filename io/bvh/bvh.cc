@@ -14,7 +14,7 @@
 #include "io/text/cursor.h"
 #include "model/geometry/euler_angles.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using bvh::Cursor;
@@ -186,4 +186,4 @@ BvhFile ReadBvh(const std::string& path) {
   return ParseBvh(text.str(), path);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -11,7 +11,7 @@
 
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Kinds of a channel: 0..2 = X, Y, Z position, 3..5 = X, Y, Z rotation.
 inline constexpr int kFirstRotationChannel = 3;
@@ -45,4 +45,4 @@ std::string FormatBvh(const BvhFile& original, const RigMotion& motion, double o
 // integer. Others (23.976) stay. In and out: s.
 double SnappedFrameTime(double frame_time);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -10,7 +10,7 @@
 
 #include "io/bvh/bvh.h"
 
-namespace retarget::bvh {
+namespace retarget::io::bvh {
 namespace {
 
 // Bounds that no real file reaches, so that a damaged one cannot ask for all memory.
@@ -175,4 +175,4 @@ class HierarchyReader {
 
 Hierarchy ReadHierarchy(Cursor* cursor) { return HierarchyReader(cursor).Read(); }
 
-}  // namespace retarget::bvh
+}  // namespace retarget::io::bvh

@@ -9,7 +9,7 @@
 #include "io/text/cursor.h"
 #include "model/rig/rig.h"
 
-namespace retarget::bvh {
+namespace retarget::io::bvh {
 
 struct Hierarchy {
   Rig rig;
@@ -22,4 +22,4 @@ struct Hierarchy {
 // Reads HIERARCHY ... up to and with the word MOTION.
 Hierarchy ReadHierarchy(Cursor* cursor);
 
-}  // namespace retarget::bvh
+}  // namespace retarget::io::bvh

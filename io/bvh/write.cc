@@ -11,7 +11,7 @@
 #include "io/text/cursor.h"
 #include "model/geometry/euler_angles.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Rotation channels of a joint in file order, filled up to three axes.
@@ -82,4 +82,4 @@ std::string FormatBvh(const BvhFile& original, const RigMotion& motion, double o
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

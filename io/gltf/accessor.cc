@@ -9,7 +9,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Many accessors may name the same data, so that a small file could ask for all memory. No real
@@ -166,4 +166,4 @@ void GltfAccessors::ReplaceSparse(int index, size_t components, std::vector<doub
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

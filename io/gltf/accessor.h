@@ -6,7 +6,7 @@
 
 #include "io/gltf/load.h"
 
-namespace retarget {
+namespace retarget::io {
 
 class GltfAccessors {
  public:
@@ -43,4 +43,4 @@ class GltfAccessors {
   size_t numbers_read_ = 0;
 };
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -9,7 +9,7 @@
 #include "io/text/printable.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 std::string Label(const std::string& name, const char* kind, int index) {
@@ -95,4 +95,4 @@ std::vector<int> CharacterSkins(const LoadedGltf& gltf, const std::string& selec
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -6,7 +6,7 @@
 
 #include "io/gltf/load.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // The skins of one character: the selected skin's, or those of the only one. Empty where the file
 // has no skin. `humanoid` are nodes known to be a human's: they choose where nothing is selected.
@@ -14,4 +14,4 @@ namespace retarget {
 std::vector<int> CharacterSkins(const LoadedGltf& gltf, const std::string& select,
                                 const std::vector<int>& humanoid, const std::string& name);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -11,7 +11,7 @@
 #include "io/text/printable.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using nlohmann::json;
@@ -234,4 +234,4 @@ json CheckedGltf(const json& document, const std::string& name) {
   return Checker(document, name).Checked();
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

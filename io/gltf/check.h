@@ -5,11 +5,11 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace retarget {
+namespace retarget::io {
 
 // A document with only the known members of nodes, skins, animations, meshes, accessors, views and
 // buffers of `document`. Throws InputError that names the member: a wrong type, a missing one, an
 // index out of range, a value that cannot be.
 nlohmann::json CheckedGltf(const nlohmann::json& document, const std::string& name);
 
-}  // namespace retarget
+}  // namespace retarget::io

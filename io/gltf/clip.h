@@ -13,7 +13,7 @@
 
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Which animation and which character of a file: a name, or an index from 0. Empty: the only one.
 // A skin stands for its character: all skins that share its skeleton.
@@ -86,4 +86,4 @@ std::string FormatGltf(const GltfClip& original, const RigMotion& motion, double
 // it is deaf to clothes, pockets and stray weights. 0 where a joint has no vertices.
 std::vector<double> BoneRadii(const GltfClip& clip);
 
-}  // namespace retarget
+}  // namespace retarget::io

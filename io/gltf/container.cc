@@ -6,7 +6,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr size_t kHeader = 12, kChunkHeader = 8;
@@ -127,4 +127,4 @@ std::string JoinGlb(std::string_view json, std::string_view data, std::string_vi
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

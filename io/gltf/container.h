@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace retarget {
+namespace retarget::io {
 
 // Parts of a file, as views into its bytes.
 struct GltfContainer {
@@ -22,4 +22,4 @@ GltfContainer SplitGltf(std::string_view bytes, const std::string& name);
 // The container around a text and data of any length. Throws InputError beyond 4 GiB.
 std::string JoinGlb(std::string_view json, std::string_view data, std::string_view rest = {});
 
-}  // namespace retarget
+}  // namespace retarget::io

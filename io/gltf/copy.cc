@@ -10,7 +10,7 @@
 #include "io/text/printable.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 using nlohmann::json;
 
@@ -247,4 +247,4 @@ int GltfCopier::CopyView(const json& index) {
   return copied_[{"bufferViews", old}] = target_.AddView(std::move(view), bytes);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

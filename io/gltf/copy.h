@@ -13,7 +13,7 @@
 
 #include "io/gltf/load.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // A document to copy from. What should not be copied may be erased from `document` before.
 struct GltfSource {
@@ -88,4 +88,4 @@ class GltfCopier {
   std::vector<std::string> missing_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::io

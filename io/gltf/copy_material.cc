@@ -5,7 +5,7 @@
 #include "io/gltf/image.h"
 #include "io/text/printable.h"
 
-namespace retarget {
+namespace retarget::io {
 
 using nlohmann::json;
 
@@ -86,4 +86,4 @@ int GltfCopier::CopyImage(const json& index) {
   return copied_[{"images", old}] = there ? target_.Add("images", std::move(image)) : -1;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

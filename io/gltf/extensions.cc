@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Of the registry of Khronos and of VRM 1.0. Whatever refers to nodes, or stands in the document's
@@ -44,4 +44,4 @@ bool CanBeLeftOut(std::string_view name) {
   return Holds(kDispensable, name) || name == "VRM" || name.starts_with("VRMC_");
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

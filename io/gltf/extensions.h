@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace retarget {
+namespace retarget::io {
 
 // Whether an extension's objects may be copied: their indices, if they have any, are known to
 // io/gltf/copy.h.
@@ -17,4 +17,4 @@ bool HasNoObject(std::string_view name);
 // out (lights, animations), or about another choice of what there is.
 bool CanBeLeftOut(std::string_view name);
 
-}  // namespace retarget
+}  // namespace retarget::io

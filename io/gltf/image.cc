@@ -6,7 +6,7 @@
 
 #include "io/gltf/load.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // "%20" is a space, and so on.
@@ -61,4 +61,4 @@ std::string MediaTypeOf(std::string_view image) {
   return "";
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

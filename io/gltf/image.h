@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace retarget {
+namespace retarget::io {
 
 // What a URI stands for: the content of a data URI, or of a file in `folder` or below it. Nothing
 // where there is none; an empty `folder` has no files.
@@ -16,4 +16,4 @@ std::optional<std::string> ReadUri(const std::string& uri, const std::string& fo
 // extensions know.
 std::string MediaTypeOf(std::string_view image);
 
-}  // namespace retarget
+}  // namespace retarget::io

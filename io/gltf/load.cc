@@ -15,7 +15,7 @@
 #include "io/text/printable.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -153,4 +153,4 @@ LoadedGltf LoadGltf(std::string_view bytes, const std::string& name, const std::
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

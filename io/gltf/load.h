@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace retarget {
+namespace retarget::io {
 
 // tinygltf sees only nodes, skins, animations, meshes' skinning and what they refer to: images are
 // never opened, extras and unknown extensions never parsed. All indices of the model are valid.
@@ -26,4 +26,4 @@ LoadedGltf LoadGltf(std::string_view bytes, const std::string& name, const std::
 // Whether `path` is a regular file in `folder` or below it, links resolved.
 bool IsFileInside(const std::string& path, const std::string& folder);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -9,7 +9,7 @@
 
 #include "io/gltf/node.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr double kQuantile = 0.75;
@@ -154,4 +154,4 @@ std::vector<double> BoneRadii(const GltfClip& clip) {
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -4,9 +4,9 @@
 #include "io/gltf/clip.h"
 #include "io/gltf/load.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Sets RigJoint::skin_top of the joints whose skin, or whose children's, rises above them at rest.
 void FindSkinTops(const LoadedGltf& gltf, GltfClip* clip);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace retarget {
+namespace retarget::io {
 
 using Eigen::Matrix4d;
 
@@ -74,4 +74,4 @@ std::vector<Matrix4d> InverseBindMatrices(const tinygltf::Model& model, int skin
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

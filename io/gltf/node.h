@@ -8,7 +8,7 @@
 #include "io/gltf/accessor.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Translation, rotation and scale of a node. A matrix is split up; `name` stands for the file.
 // Throws InputError where the rotation is not unit or the matrix is singular or shears.
@@ -23,4 +23,4 @@ GltfTransform TransformOf(const tinygltf::Model& model, int node, const std::str
 std::vector<Eigen::Matrix4d> InverseBindMatrices(const tinygltf::Model& model, int skin,
                                                  GltfAccessors* accessors, const std::string& name);
 
-}  // namespace retarget
+}  // namespace retarget::io

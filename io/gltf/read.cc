@@ -15,7 +15,7 @@
 #include "io/gltf/vrm.h"
 #include "io/text/printable.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // A bound that no real file reaches, so that a damaged one cannot ask for all memory.
@@ -178,4 +178,4 @@ GltfClip ReadGltf(const std::string& path, const GltfSelect& select) {
   return ParseGltf(std::move(bytes).str(), path, folder, select);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

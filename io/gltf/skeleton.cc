@@ -9,7 +9,7 @@
 
 #include "io/gltf/node.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using Eigen::Matrix4d;
@@ -262,4 +262,4 @@ void BuildSkeleton(const LoadedGltf& gltf, const std::vector<int>& skins,
   SkeletonBuilder(gltf, skins, tracks, accessors, clip).Build(humanoid);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -6,7 +6,7 @@
 #include "io/gltf/clip.h"
 #include "io/gltf/tracks.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Fills rig and joints of `clip` (not yet the frames): the joints of `skins` and the `humanoid`
 // nodes, or where there are none, what `tracks` move.
@@ -14,4 +14,4 @@ void BuildSkeleton(const LoadedGltf& gltf, const std::vector<int>& skins,
                    const std::vector<int>& humanoid, const GltfTracks& tracks,
                    GltfAccessors* accessors, GltfClip* clip);
 
-}  // namespace retarget
+}  // namespace retarget::io

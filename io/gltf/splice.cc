@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace retarget {
+namespace retarget::io {
 
 JsonSplice::JsonSplice(std::string_view text) : text_(text) {
   root_.begin = text.find('{');  // past spaces and a byte order mark
@@ -144,4 +144,4 @@ std::string JsonSplice::Finish() {
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace retarget {
+namespace retarget::io {
 
 class JsonSplice {
  public:
@@ -49,4 +49,4 @@ class JsonSplice {
   std::vector<std::pair<std::string, std::string>> appended_;  // array, values between commas
 };
 
-}  // namespace retarget
+}  // namespace retarget::io

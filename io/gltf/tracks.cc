@@ -9,7 +9,7 @@
 #include "io/bvh/bvh.h"
 #include "io/text/printable.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // How far a rotation may be off unit length: what Khronos' validator grants, and what rounding to 8
@@ -260,4 +260,4 @@ FrameTimes ChooseFrameTimes(const std::vector<const GltfTrack*>& tracks, const s
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

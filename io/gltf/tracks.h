@@ -9,7 +9,7 @@
 #include "io/gltf/accessor.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // One animated property of a node. Before the first key and after the last it holds their values.
 struct GltfTrack {
@@ -49,4 +49,4 @@ struct FrameTimes {
 };
 FrameTimes ChooseFrameTimes(const std::vector<const GltfTrack*>& tracks, const std::string& name);
 
-}  // namespace retarget
+}  // namespace retarget::io

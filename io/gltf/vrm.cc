@@ -8,7 +8,7 @@
 
 #include "io/text/printable.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using nlohmann::json;
@@ -90,4 +90,4 @@ JointMap MapOfVrmBones(const VrmBones& bones, const std::vector<int>& joint_of_n
   return map;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -7,7 +7,7 @@
 
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 struct VrmBones {
   std::map<std::string, int> node;  // by the bone's VRM name; empty: the file is no VRM
@@ -21,4 +21,4 @@ VrmBones ReadVrmBones(const std::string& extensions, int num_nodes, const std::s
 // The same for the joints of a rig. `joint_of_node` [nodes]: -1 where a node is no joint.
 JointMap MapOfVrmBones(const VrmBones& bones, const std::vector<int>& joint_of_node);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -16,7 +16,7 @@
 #include "io/gltf/container.h"
 #include "io/gltf/splice.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using nlohmann::json;
@@ -263,4 +263,4 @@ std::string FormatGltf(const GltfClip& original, const RigMotion& motion, double
   return JoinGlb(text, data, container.rest);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -8,7 +8,7 @@
 #include "io/recognition/joint_reading.h"
 #include "io/text/nearest_name.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr const char* kSides = "left/right l/r";  // tried in every convention
@@ -128,4 +128,4 @@ std::vector<std::string> NearestNames(const Rig& rig, const std::string& wanted,
   return names;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

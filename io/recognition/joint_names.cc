@@ -8,7 +8,7 @@
 #include "io/recognition/joint_profiles.h"
 #include "model/rig/tree.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr size_t kMostFrames = 24;  // tried per convention: keeps the cost of odd input small
@@ -113,4 +113,4 @@ std::vector<NameFrame> NameIndex::Frames(const std::vector<std::string>& words,
   return frames;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -9,7 +9,7 @@
 
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // What stands before and after the words of a convention in a rig's names: a character's name
 // ("Character1_"), a tool's mark ("DEF-", "_JNT", ".001").
@@ -46,4 +46,4 @@ bool NamesAreNumbered(const Rig& rig);
 // Text between separators.
 std::vector<std::string> Words(std::string_view text, char separator = ' ');
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -1,7 +1,7 @@
 // The table of conventions; joint_name_match.cc and joint_shape_match.cc match a rig.
 #include "io/recognition/joint_profiles.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // clang-format off
@@ -175,4 +175,4 @@ constexpr JointProfile kProfiles[] = {
 
 std::span<const JointProfile> JointProfiles() { return kProfiles; }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -14,7 +14,7 @@
 
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // One naming convention. Names are normalised (NormalisedName); a field may hold several
 // alternatives between blanks, the preferred first. '#' stands for the convention's word for the
@@ -81,4 +81,4 @@ ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses);
 std::vector<std::string> NearestNames(const Rig& rig, const std::string& wanted,
                                       const std::string& profile);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -5,7 +5,7 @@
 
 #include "model/rig/tree.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Joints at the vertex, in any convention.
@@ -241,4 +241,4 @@ NameMatch MatchReading(const Rig& rig, const NameIndex& index, const JointProfil
   return NameMatcher(rig, index, profile, reading).Match();
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -8,7 +8,7 @@
 #include "io/recognition/joint_names.h"
 #include "io/recognition/joint_profiles.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // The joints of a side as a convention names them.
 struct NamedPart {
@@ -42,4 +42,4 @@ struct Reading {
 NameMatch MatchReading(const Rig& rig, const NameIndex& index, const JointProfile& profile,
                        const Reading& reading);
 
-}  // namespace retarget
+}  // namespace retarget::io

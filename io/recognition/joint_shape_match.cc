@@ -7,7 +7,7 @@
 #include "io/recognition/joint_profiles.h"
 #include "model/rig/points.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr double kEqualLengths = 0.15;  // relative
@@ -261,4 +261,4 @@ ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
   return match;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

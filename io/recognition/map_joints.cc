@@ -2,7 +2,7 @@
 
 #include "io/recognition/recognise.h"
 
-namespace retarget {
+namespace retarget::io {
 
 std::vector<std::pair<std::string, int>> NamedJoints(const JointMap& map, int chest_bone) {
   const bool waist = !map.spine.empty() && map.spine.front() != chest_bone;
@@ -33,4 +33,4 @@ std::string MapByHand(const std::string& file) {
          " --yaml > a.map.yaml`, edit it, give it with --map-a a.map.yaml";
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

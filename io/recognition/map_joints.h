@@ -9,7 +9,7 @@
 #include "io/recognition/rig_measure.h"
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // The project's joints and end nodes in order, with the rig joint that plays each, -1 where none
 // does. `chest_bone` as ChestBone of io/recognition/recognise.h.
@@ -37,4 +37,4 @@ inline constexpr SidePart kSideParts[] = {{"clavicle", &JointMap::Side::clavicle
 // How a user maps the figure of a file by hand.
 std::string MapByHand(const std::string& file);
 
-}  // namespace retarget
+}  // namespace retarget::io

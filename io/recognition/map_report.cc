@@ -11,7 +11,7 @@
 #include "io/recognition/recognise.h"
 #include "io/text/printable.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 std::vector<bool> MappedJoints(const RigMotion& motion, const JointMap& map) {
@@ -102,4 +102,4 @@ std::string MapJson(const RigFacts& facts, const RigMotion& motion) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -19,7 +19,7 @@
 #include "io/recognition/t_pose.h"
 #include "io/text/printable.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // --- Which joint is which ---
@@ -124,4 +124,4 @@ RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
   return facts;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -7,7 +7,7 @@
 
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 struct RecogniseOptions {
   std::optional<double> metres_per_unit;
@@ -36,4 +36,4 @@ std::string MapTable(const RigFacts& facts, const RigMotion& motion);
 // unmapped: [bone], t_pose_frames: [frame from 0], notes: [text]}.
 std::string MapJson(const RigFacts& facts, const RigMotion& motion);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -11,7 +11,7 @@
 #include "io/recognition/map_joints.h"
 #include "io/recognition/rig_units.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using Side = RigPoints::Side;
@@ -156,4 +156,4 @@ class FigureCheck {
 
 void CheckFigure(const Figure& figure, RigFacts* facts) { FigureCheck(figure, facts).Run(); }
 
-}  // namespace retarget
+}  // namespace retarget::io

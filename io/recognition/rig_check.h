@@ -5,11 +5,11 @@
 #include "io/recognition/rig_measure.h"
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Notes what is odd about the figure and which joints are virtual, fills its facing, and brings the
 // share of checks that it passed into `facts->confidence`, which holds the share of its joints
 // found by name. `facts` has map, unit and up axis.
 void CheckFigure(const Figure& figure, RigFacts* facts);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -5,7 +5,7 @@
 #include "io/recognition/recognise.h"
 #include "model/body/body.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 double LegLength(const Figure& f, const RigPoints::Side& side) {
@@ -67,4 +67,4 @@ int ChestBone(const RigMotion& motion, const JointMap& map) {
   return FindChestBone(motion.rig, SamplePoses(motion), map);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

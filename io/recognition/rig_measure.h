@@ -7,7 +7,7 @@
 #include "model/rig/points.h"
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // A mapped rig with the poses that it is measured in.
 struct Figure {
@@ -30,4 +30,4 @@ double FigureHeight(const Figure& figure);
 // Where both feet point, by toe joints or the ends of the ankles; zero where neither is there.
 Vec3 FeetDirection(const PosedRig& pose, const RigPoints& points);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -8,7 +8,7 @@
 #include <optional>
 #include <system_error>
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 struct Unit {
@@ -128,4 +128,4 @@ std::optional<double> ParseUnits(const std::string& text) {
   return metres;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

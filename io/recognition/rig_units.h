@@ -7,7 +7,7 @@
 #include "io/recognition/rig_measure.h"
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Fills unit, its name and stature of `facts`, whose figure is `height` file units tall: the unit
 // of the options, else the listed one that makes the stature the most usual. Notes what is odd;
@@ -23,4 +23,4 @@ void FindUp(const Figure& figure, const RecogniseOptions& options, const std::st
 
 Vec3 UpAxis(const RigFacts& facts);
 
-}  // namespace retarget
+}  // namespace retarget::io

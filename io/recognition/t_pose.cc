@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 bool Along(const Vec3& v, const Vec3& unit, double degrees) {
@@ -101,4 +101,4 @@ void NoteTPose(const RigMotion& motion, const RigPoints& points, RigFacts* facts
       start));
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

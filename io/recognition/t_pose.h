@@ -6,7 +6,7 @@
 #include "model/rig/points.h"
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Frames from the first one on. A clip that is nothing but a T-pose has no calibration to skip,
 // unless it is a single frame, which the caller will want to know. Resampling tools blend the
@@ -18,4 +18,4 @@ std::vector<int> TPoseFrames(const RigMotion& motion, const RigPoints& points, c
 // `facts` has the frames of the T-pose.
 void NoteTPose(const RigMotion& motion, const RigPoints& points, RigFacts* facts);
 
-}  // namespace retarget
+}  // namespace retarget::io

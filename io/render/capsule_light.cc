@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Distance along the ray origin + t direction (unit) to a sphere, or kFar. The origin is outside.
@@ -128,4 +128,4 @@ const std::vector<int>& ColumnGrid::Near(const Vec3& p) const {
   return cells_[static_cast<int>(v) * kCells + static_cast<int>(u)];
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -6,7 +6,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -66,4 +66,4 @@ class ColumnGrid {
   std::vector<int> none_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::io

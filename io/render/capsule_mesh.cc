@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Two unit vectors that complete the unit vector `axis` to a right-handed frame (u, v, axis).
@@ -72,4 +72,4 @@ std::optional<Nose> NoseOf(const Body& body) {
   return std::nullopt;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

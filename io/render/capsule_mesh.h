@@ -8,7 +8,7 @@
 #include "model/body/body.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Triangles with smooth normals, outward side counter-clockwise.
 struct TriangleMesh {
@@ -35,4 +35,4 @@ struct Nose {
 // None where the body has no segment called "head_top".
 std::optional<Nose> NoseOf(const Body& body);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -10,7 +10,7 @@
 
 #include "io/render/pixel_font.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 unsigned char ByteOf(double component) {
@@ -147,4 +147,4 @@ std::string EncodePng(const Image& image) {
          Chunk("IEND", "");
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

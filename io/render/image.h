@@ -6,7 +6,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 struct Image {
   int width = 0, height = 0;
@@ -40,4 +40,4 @@ int LabelWidth(const std::string& text, int scale = 2);
 // The bytes of a PNG file (8 bits, RGB).
 std::string EncodePng(const Image& image);
 
-}  // namespace retarget
+}  // namespace retarget::io

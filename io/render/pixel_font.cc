@@ -1,6 +1,6 @@
 #include "io/render/pixel_font.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr char kFirst = ' ', kLast = '~';
@@ -112,4 +112,4 @@ const std::array<unsigned char, kGlyphHeight>& GlyphOf(char c) {
   return kGlyphs[c >= kFirst && c <= kLast ? c - kFirst : kLast - kFirst + 1];
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -3,11 +3,11 @@
 
 #include <array>
 
-namespace retarget {
+namespace retarget::io {
 
 inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7;
 
 // Rows from the top; bit 4 of a row is its leftmost pixel. A hollow box for unknown characters.
 const std::array<unsigned char, kGlyphHeight>& GlyphOf(char c);
 
-}  // namespace retarget
+}  // namespace retarget::io

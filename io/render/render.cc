@@ -9,7 +9,7 @@
 #include "io/render/capsule_light.h"
 #include "io/render/capsule_mesh.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // ---- Look. Light and colour are linear here; 1 is white on the screen.
@@ -321,4 +321,4 @@ RenderCamera CameraAround(const std::vector<RenderCapsule>& capsules, double azi
   return camera;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

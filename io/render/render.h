@@ -12,7 +12,7 @@
 #include "model/body/pose.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 struct RenderCapsule {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // ends of the axis (m, world)
@@ -47,4 +47,4 @@ std::vector<RenderCapsule> FigureCapsules(const Body& body, const PosedBody& pos
 RenderCamera CameraAround(const std::vector<RenderCapsule>& capsules, double azimuth,
                           double elevation, double aspect, double fov_y_rad = 30 * kDegree);
 
-}  // namespace retarget
+}  // namespace retarget::io

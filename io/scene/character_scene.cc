@@ -9,7 +9,7 @@
 
 #include "io/gltf/copy.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using nlohmann::json;
@@ -194,4 +194,4 @@ std::string FormatCharacterScene(const std::string& scene_glb,
   return target.Finish();
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

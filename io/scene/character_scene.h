@@ -8,7 +8,7 @@
 #include "io/gltf/clip.h"
 #include "model/rig/rig.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Neither is owned. `motion` is in the scene's world, on the clip's rig, one frame per key of the
 // scene.
@@ -36,4 +36,4 @@ std::string FormatCharacterScene(const std::string& scene_glb,
                                  const std::array<const SceneCharacter*, 2>& characters,
                                  std::vector<std::string>* notes = nullptr);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -16,7 +16,7 @@
 #include "io/render/capsule_mesh.h"
 #include "io/render/image.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Arrays of GLM values are copied into the file as they lie in memory.
@@ -332,4 +332,4 @@ std::string FormatSceneGlb(const std::vector<SceneFigure>& figures, const std::s
   return writer.Finish();
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -21,7 +21,7 @@
 #include "model/body/pose.h"
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 struct SceneFigure {
   std::string name;            // prefix of its nodes: "a"
@@ -38,4 +38,4 @@ inline const Vec3 kColourB = Vec3(0xE6, 0x9F, 0x00) / 255.0;
 // asset.generator. The same input gives the same bytes.
 std::string FormatSceneGlb(const std::vector<SceneFigure>& figures, const std::string& generator);
 
-}  // namespace retarget
+}  // namespace retarget::io

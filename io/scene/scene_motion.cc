@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // The rotation of a linear map: of its polar decomposition, unless it is one already.
@@ -105,4 +105,4 @@ void SceneMotion::NodePositions(double t, const std::string& figure,
   NodePositions(t, FindNodes(figure, node_names), out);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -8,7 +8,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 class SceneMotion {
  public:
@@ -76,4 +76,4 @@ class SceneMotion {
 SceneMotion ReadSceneGlb(const std::string& path);
 SceneMotion ParseSceneGlb(const std::string& bytes, const std::string& name);
 
-}  // namespace retarget
+}  // namespace retarget::io

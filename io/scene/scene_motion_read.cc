@@ -11,7 +11,7 @@
 #include "io/gltf/load.h"
 #include "io/scene/scene_motion.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Turns a glTF document into a SceneMotion, and refuses what it does not understand.
 class SceneMotionReader {
@@ -218,4 +218,4 @@ SceneMotion ReadSceneGlb(const std::string& path) {
   return ParseSceneGlb(std::move(bytes).str(), path);
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

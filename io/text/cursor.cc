@@ -12,7 +12,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget::bvh {
+namespace retarget::io::bvh {
 
 bool SameWord(std::string_view a, std::string_view b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
@@ -124,4 +124,4 @@ void Cursor::Step() {
   if (IsLineEnd(c)) ++line_;
 }
 
-}  // namespace retarget::bvh
+}  // namespace retarget::io::bvh

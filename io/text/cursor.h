@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace retarget::bvh {
+namespace retarget::io::bvh {
 
 // No position in any unit and no angle is larger; beyond it squares and sums lose their meaning.
 inline constexpr double kMaxNumber = 1e9;
@@ -67,4 +67,4 @@ class Cursor {
   int line_ = 1, token_line_ = 1;
 };
 
-}  // namespace retarget::bvh
+}  // namespace retarget::io::bvh

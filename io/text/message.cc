@@ -8,7 +8,7 @@
 #include "io/text/nearest_name.h"
 #include "io/text/printable.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr int kDeepest = 24;
@@ -215,4 +215,4 @@ std::vector<Fields> Fields::ObjectList(const std::string& key, size_t most) cons
   return objects;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -10,7 +10,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // Keys sorted, so that an object with very many of them costs no more than its length.
 using Message = nlohmann::json;
@@ -63,4 +63,4 @@ class Fields {
   std::string where_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numeric>
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr size_t kLongestWord = 64;  // characters compared: keeps the cost of odd input small
@@ -59,4 +59,4 @@ std::string Suggestion(std::string_view word, const std::vector<std::string>& na
   return ", expected one of " + list;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace retarget {
+namespace retarget::io {
 
 // Fewest insertions, deletions, replacements and exchanges of neighbours that turn `a` into `b`
 // (optimal string alignment); upper and lower case are equal. Reads the first 64 characters of
@@ -21,4 +21,4 @@ const std::string& NearestName(std::string_view word, const std::vector<std::str
 std::string Suggestion(std::string_view word, const std::vector<std::string>& names,
                        const std::string& prefix = "");
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace retarget {
+namespace retarget::io {
 
 // The first 60 characters, '?' for control characters, so that a line stays a line.
 inline std::string Printable(std::string_view text) {
@@ -15,4 +15,4 @@ inline std::string Printable(std::string_view text) {
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

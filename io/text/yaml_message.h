@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace retarget {
+namespace retarget::io {
 
 inline bool IsControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
@@ -15,4 +15,4 @@ inline std::string JoinPath(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -14,7 +14,7 @@
 #include "io/text/yaml_message.h"
 #include "io/text/yaml_reader.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using Kind = YamlValue::Kind;
@@ -166,4 +166,4 @@ YamlValue ParseYaml(const std::string& text, const std::string& name) {
   return builder.TakeRoot();
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

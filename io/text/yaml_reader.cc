@@ -13,7 +13,7 @@
 #include "io/text/nearest_name.h"
 #include "io/text/yaml_message.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using Kind = YamlValue::Kind;
@@ -199,4 +199,4 @@ std::string YamlText(const std::string& text) {
   return quoted + "\"";
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

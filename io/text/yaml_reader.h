@@ -11,7 +11,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 struct YamlValue {
   enum class Kind { kNothing, kScalar, kList, kMap };
@@ -62,4 +62,4 @@ int ReadName(const YamlValue& value, const std::string& what,
 // `text` as a YAML scalar on one line, in quotes where it needs them.
 std::string YamlText(const std::string& text);
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -5,7 +5,7 @@
 
 #include "solver/metrics/diagnosis_text.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // The part of the objective that works for a requirement.
@@ -90,4 +90,4 @@ std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unkn
   return conflicts;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

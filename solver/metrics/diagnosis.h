@@ -7,7 +7,7 @@
 
 #include "solver/metrics/requirements.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // Frames before and after the worst that are looked at too: hinges come and go.
 inline constexpr int kConflictReach = 2;
@@ -48,4 +48,4 @@ std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unkn
                                     const MeasureSubject& subject, const Metrics& metrics,
                                     const std::vector<RequirementCheck>& checks);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -5,7 +5,7 @@
 #include "model/body/path.h"
 #include "solver/metrics/diagnosis_text.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // Two planted feet in one place.
@@ -96,4 +96,4 @@ AnchoredContact ContactOfAnchor(const Scene& scene, int anchor) {
   return {1, scene.contacts[1][static_cast<size_t>(anchor - of_a)]};
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

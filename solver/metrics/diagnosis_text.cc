@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <type_traits>
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kUnsettled = 0.5;    // share of a pull that nothing takes
@@ -250,4 +250,4 @@ std::string Text(const char* format, ...) {
   return text;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

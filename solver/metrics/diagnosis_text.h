@@ -5,7 +5,7 @@
 
 #include "solver/metrics/diagnosis.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 struct ConflictCase {
   const Problem& problem;
@@ -36,4 +36,4 @@ std::string PlantedName(const Scene& scene, const AnchoredContact& planted);
 // printf into a string.
 __attribute__((format(printf, 1, 2))) std::string Text(const char* format, ...);
 
-}  // namespace retarget
+}  // namespace retarget::solver

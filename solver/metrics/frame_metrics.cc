@@ -10,7 +10,7 @@
 #include "model/geometry/so3.h"
 #include "solver/problem/parallel.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr int kSubSamples = 4;      // instants per frame interval
@@ -203,4 +203,4 @@ FrameSeries MeasureSeries(const MeasureSubject& subject, const MotionView& motio
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

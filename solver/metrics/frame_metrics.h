@@ -7,7 +7,7 @@
 
 #include "solver/metrics/metrics_context.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // Overlap of two capsules, each named by its segment's outer node.
 struct Overlap {
@@ -62,4 +62,4 @@ std::vector<int> TrackedJoints(const Body& body);
 // Speed (m/s) of a planted node from frame t - 1 to t, t in (contact.first, contact.last].
 double PlantedSpeed(const FrameSeries& series, int figure, const Contact& contact, int t);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "model/body/path.h"
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kDeep = 0.01;        // m
@@ -216,4 +216,4 @@ Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const M
   return MetricsOf(subject, MeasureSeries(subject, motion, source), NodesOf(source));
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -6,7 +6,7 @@
 
 #include "solver/metrics/frame_metrics.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 struct TangleMetrics {
   double min_signed_gli = 0;          // over the frames (turns)
@@ -55,4 +55,4 @@ Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const M
 Metrics MetricsOf(const MeasureSubject& subject, const FrameSeries& series,
                   const std::vector<NodePositions>& source);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace retarget {
+namespace retarget::solver {
 
 MotionView ViewOf(const std::array<Body, 2>& body, const std::array<Clip, 2>& clips) {
   MotionView view;
@@ -47,4 +47,4 @@ MeasureSubject SubjectOf(const Scene& scene) {
   return subject;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -10,7 +10,7 @@
 #include "model/body/pass_through.h"
 #include "solver/problem/scene.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // One instant of a motion: every node's place (m) and the rotation of the link that carries it.
 struct PostureSample {
@@ -42,4 +42,4 @@ struct MeasureSubject {
 };
 MeasureSubject SubjectOf(const Scene& scene);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace retarget {
+namespace retarget::solver {
 
 bool AllMet(const std::vector<RequirementCheck>& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
@@ -128,4 +128,4 @@ std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject,
   return Requiring(subject, metrics, requirements).Run();
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "solver/metrics/metrics.h"
 #include "solver/metrics/term_gradient.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 inline constexpr const char* kDeepFrames = "penetration over 1 cm";  // a requirement's name
 
@@ -29,4 +29,4 @@ std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject,
                                                 const Metrics& metrics,
                                                 const Requirements& requirements);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 #include "solver/problem/terms/hold.h"
 #include "solver/problem/terms/tangle.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 class Puller {
@@ -140,4 +140,4 @@ std::vector<int> CoordinatesOf(const Scene& scene, const std::vector<LimbNode>& 
   return {coordinates.begin(), coordinates.end()};
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 
 #include "solver/problem/problem.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // A hold, a tag or a planted foot pulls by itself; the other terms as a whole.
 struct Pull {
@@ -28,4 +28,4 @@ struct LimbNode {
 };
 std::vector<int> CoordinatesOf(const Scene& scene, const std::vector<LimbNode>& limbs);
 
-}  // namespace retarget
+}  // namespace retarget::solver

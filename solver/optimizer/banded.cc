@@ -7,7 +7,7 @@
 #include "solver/problem/parallel.h"
 #include "solver/problem/terms/smoothness.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 // Keeps the block of an anchor positive definite where its foot has no weight.
 constexpr double kTinyPivot = 1e-9;
@@ -250,4 +250,4 @@ size_t BandedSystem::memory_bytes() const {
   return bytes;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

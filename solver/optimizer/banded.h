@@ -14,7 +14,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // Coordinates of an anchor: x and z.
 inline constexpr int kAnchorSize = 2;
@@ -111,4 +111,4 @@ class BandedSystem {
   std::vector<Factor> factor_;  // by frame; that of the middle at middle_[0]
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -10,7 +10,7 @@
 #include "solver/optimizer/spacetime.h"
 #include "solver/problem/parallel.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kLeastDamping = 1e-9;
@@ -218,4 +218,4 @@ SolveStatus SolveStageBanded(const StageContext& context, SolveResult* result) {
   return BandedStage(context, result).Run();
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -12,7 +12,7 @@
 #include "solver/optimizer/spacetime.h"
 #include "solver/problem/parallel.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr int kBlock = 3;  // of a joint's edit
@@ -388,4 +388,4 @@ SolveStatus SolveStageCeres(const StageContext& context, SolveResult* result) {
   return CeresStage(context, result).Run();
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

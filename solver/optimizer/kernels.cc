@@ -8,7 +8,7 @@ RETARGET_DECLARE_KERNEL(portable)
 RETARGET_DECLARE_KERNEL(avx2)
 RETARGET_DECLARE_KERNEL(avx512)
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 struct Kernels {
@@ -48,4 +48,4 @@ void AddNormalEquations(const double* jacobian, const double* residual, int rows
 
 const char* KernelName() { return Chosen().name; }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -2,7 +2,7 @@
 // run time, so that one binary runs everywhere and fast.
 #pragma once
 
-namespace retarget {
+namespace retarget::solver {
 
 // Eliminates the first `own` of `size` unknowns of a symmetric positive definite system, in place:
 //   a [size x size], lower triangle, column-major with leading dimension `stride`;  b [size]
@@ -20,4 +20,4 @@ void AddNormalEquations(const double* jacobian, const double* residual, int rows
 // "avx512", "avx2" or "portable": what this machine was given.
 const char* KernelName();
 
-}  // namespace retarget
+}  // namespace retarget::solver

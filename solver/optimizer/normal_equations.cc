@@ -2,7 +2,7 @@
 
 #include "solver/optimizer/kernels.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 void NormalEquations(const Rows& rows, MatX* hessian, VecX* gradient) {
   const long n = rows.jacobian().cols();
@@ -49,4 +49,4 @@ std::vector<AnchorSpan> AnchorSpans(const Scene& scene) {
   return spans;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -6,7 +6,7 @@
 #include "solver/optimizer/banded.h"
 #include "solver/problem/problem.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // J^T J (lower triangle) [n x n] and J^T r [n] of one frame's rows, anchors left out.
 void NormalEquations(const Rows& rows, MatX* hessian, VecX* gradient);
@@ -19,4 +19,4 @@ void FillBlock(const Problem& problem, const Rows& rows, const MatX& edit, int t
 // The frames of every anchor of a scene, in the order of Unknowns::anchor.
 std::vector<AnchorSpan> AnchorSpans(const Scene& scene);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -9,7 +9,7 @@
 #include "solver/problem/problem.h"
 #include "solver/problem/terms/hold.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kPassThrough = 0.5;  // turns of one segment pair (docs/metrics.md)
@@ -205,4 +205,4 @@ PoseResult SolvePose(const PoseTask& task, const Poses& start, const PoseSetting
   return result;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

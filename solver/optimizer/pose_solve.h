@@ -13,7 +13,7 @@
 #include "solver/problem/scene.h"
 #include "solver/problem/terms/ray.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // A node that is to be at a place in the world (m).
 struct NodeTarget {
@@ -69,4 +69,4 @@ struct PoseResult {
 PoseResult SolvePose(const PoseTask& task, const std::array<Pose, 2>& start,
                      const PoseSettings& settings);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "model/geometry/polyline.h"
 #include "solver/problem/parallel.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 double SecondsNow() {
   using Clock = std::chrono::steady_clock;
@@ -114,4 +114,4 @@ SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
   return result;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 
 #include "solver/problem/problem.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // One accepted iteration.
 struct Iteration {
@@ -70,4 +70,4 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
                       Iteration* iteration);
 double SecondsNow();
 
-}  // namespace retarget
+}  // namespace retarget::solver

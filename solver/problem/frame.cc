@@ -2,7 +2,7 @@
 
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 void Frame::Set(const Scene& s, const Unknowns& unknowns, int frame, bool derivatives) {
   scene = &s;
@@ -23,4 +23,4 @@ void Frame::Set(const Scene& s, const Unknowns& unknowns, int frame, bool deriva
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 #include "model/body/pose.h"
 #include "solver/problem/scene.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 struct Frame {
   const Scene* scene = nullptr;
@@ -25,4 +25,4 @@ struct Frame {
   void Set(const Scene& s, const Unknowns& unknowns, int frame, bool derivatives);
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

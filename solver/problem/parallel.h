@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace retarget {
+namespace retarget::solver {
 
 // 0 means all cores.
 inline int NumThreads(int requested) {
@@ -29,4 +29,4 @@ void ParallelFor(int n, int threads, const Work& work) {
   for (std::thread& other : others) other.join();
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -14,7 +14,7 @@
 #include "solver/problem/terms/tangle.h"
 #include "solver/problem/terms/tracking.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 namespace {
 
@@ -136,4 +136,4 @@ std::vector<TermCost> Problem::CostByTerm(const Unknowns& unknowns) const {
   return costs;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

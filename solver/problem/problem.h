@@ -10,7 +10,7 @@
 #include "solver/problem/term.h"
 #include "solver/problem/terms/smoothness.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // What one term costs at a solution.
 struct TermCost {
@@ -56,4 +56,4 @@ class Problem {
   std::vector<double> weight_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -4,7 +4,7 @@
 
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kSlow = 0.5;       // s: half width of the window that tells drift from motion
@@ -101,4 +101,4 @@ Pose ShiftedRoot(const Pose& source, const RootShift& shift) {
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 
 #include "solver/problem/scene.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // A turn about the vertical through the root, and a horizontal shift.
 struct RootShift {
@@ -26,4 +26,4 @@ std::array<std::vector<RootShift>, 2> MeetingShifts(const Scene& scene);
 // The placed root of a figure at frame t with its shift.
 Pose ShiftedRoot(const Pose& source, const RootShift& shift);
 
-}  // namespace retarget
+}  // namespace retarget::solver

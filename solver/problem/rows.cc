@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace retarget {
+namespace retarget::solver {
 
 void Rows::Reset(const Frame& frame, bool derivatives) {
   frame_ = &frame;
@@ -95,4 +95,4 @@ double Rows::HalfSquares() const {
   return 0.5 * sum;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "model/geometry/types.h"
 #include "solver/problem/frame.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class Rows {
  public:
@@ -67,4 +67,4 @@ class Rows {
   std::vector<AnchorEntry> anchors_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

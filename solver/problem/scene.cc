@@ -2,7 +2,7 @@
 
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 void EditOf(const Pose& source, const Pose& pose, double* x) {
   Eigen::Map<Vec3> translation(x);
   translation = pose.root_position - source.root_position;
@@ -55,4 +55,4 @@ std::array<Clip, 2> EditedClips(const Scene& scene, const Unknowns& unknowns) {
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

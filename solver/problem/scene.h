@@ -10,7 +10,7 @@
 #include "model/body/tangle.h"
 #include "model/body/template_posture.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // A tag with the value that its residual aims for (turns, of s GLI).
 struct HeldTangle {
@@ -57,4 +57,4 @@ void EditedPose(const Pose& source, const double* x, Pose* pose);
 // The other way: the coordinates that turn `source` into `pose`.
 void EditOf(const Pose& source, const Pose& pose, double* x);
 
-}  // namespace retarget
+}  // namespace retarget::solver

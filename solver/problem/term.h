@@ -9,7 +9,7 @@
 #include "solver/problem/frame.h"
 #include "solver/problem/rows.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class Term {
  public:
@@ -23,4 +23,4 @@ class Term {
   virtual bool staged() const { return false; }
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // Contact is possible where contype of one meets conaffinity of the other: the floor with all,
@@ -112,4 +112,4 @@ std::string FormatMjcf(const std::vector<PhysicsFigure>& figures, const std::vec
   return out + "</equality>\n</mujoco>\n";
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 
 #include "model/body/body.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // How stiff the physics is. Constraints and contacts come back to zero error within about twice
 // their time constant (MuJoCo's solref, damping ratio 1); it must be at least two time steps.
@@ -47,4 +47,4 @@ std::string TieName(int tie);
 std::string FormatMjcf(const std::vector<PhysicsFigure>& figures, const std::vector<Tie>& ties,
                        const PhysicsOptions& options);
 
-}  // namespace retarget
+}  // namespace retarget::solver

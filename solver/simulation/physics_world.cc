@@ -8,7 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kMostSpeed = 100;  // m/s or rad/s of a coordinate: the run has come apart
@@ -248,4 +248,4 @@ bool PhysicsWorld::Sound() const {
   return true;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

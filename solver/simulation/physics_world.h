@@ -8,7 +8,7 @@
 #include "model/body/pose.h"
 #include "solver/simulation/mjcf.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // Forces act between BeginStep and EndStep and are forgotten after. The figures' joint rotations
 // are those of model/body/pose.h; angular velocities and torques of a joint are in the link's own
@@ -61,4 +61,4 @@ class PhysicsWorld {
   std::unique_ptr<Engine> engine_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -15,7 +15,7 @@
 #include "solver/simulation/physics_world.h"
 #include "solver/simulation/tangle_force.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kFallen = 0.35;   // of the stature: the root this far below its target
@@ -431,4 +431,4 @@ SimulationResult Simulate(const Scene& scene, const SimulationSettings& settings
   return Run(scene, settings).Go();
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -14,7 +14,7 @@
 #include "model/settings.h"
 #include "solver/problem/scene.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 enum class SimulationStatus { kCompleted, kDiverged, kFell, kLostHold, kPassedThrough, kStrayed };
 const char* NameOf(SimulationStatus status);
@@ -35,4 +35,4 @@ struct SimulationResult {
 // its hold says so in `status`.
 SimulationResult Simulate(const Scene& scene, const SimulationSettings& settings);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -6,7 +6,7 @@
 #include "model/geometry/capsule.h"
 #include "model/geometry/polyline.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kLeastShare = 0.1;
@@ -84,4 +84,4 @@ void TangleForce::ApplyGli(const std::array<PosedBody, 2>& posed, PhysicsWorld* 
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

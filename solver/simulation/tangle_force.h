@@ -16,7 +16,7 @@
 #include "solver/problem/scene.h"
 #include "solver/simulation/physics_world.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class TangleForce {
  public:
@@ -37,4 +37,4 @@ class TangleForce {
   std::vector<Pull> pulls_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

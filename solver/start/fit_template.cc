@@ -8,7 +8,7 @@
 #include "solver/optimizer/spacetime.h"
 #include "solver/problem/problem.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kLargestChange = 0.02;  // of a segment's length, per step of the fit
@@ -125,4 +125,4 @@ TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Bod
   return fitted;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 #include "model/settings.h"
 #include "solver/problem/scene.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // The literal tangles of a template and its tags: the user's own list, else the reduction.
 struct TemplateTangles {
@@ -27,4 +27,4 @@ TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Bod
 std::vector<HeldTangle> HoldTangles(const std::vector<Tag>& tags, const TemplatePosture& posture,
                                     double margin);
 
-}  // namespace retarget
+}  // namespace retarget::solver

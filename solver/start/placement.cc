@@ -6,7 +6,7 @@
 #include "model/body/shape.h"
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 Pose Placed(const Pose& pose, const Placement& placement) {
   return Moved(pose, YawRotation(placement.yaw), placement.shift);
@@ -37,4 +37,4 @@ Placement PlaceAt(const Body& body, const Clip& clip, int frame, const Pose& tar
   return placement;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

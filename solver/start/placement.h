@@ -7,7 +7,7 @@
 #include "model/body/contact.h"
 #include "model/body/pose.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 struct Placement {
   double yaw = 0;             // rad
@@ -22,4 +22,4 @@ Clip Placed(const Clip& clip, const Placement& placement);
 Placement PlaceAt(const Body& body, const Clip& clip, int frame, const Pose& target,
                   const std::vector<Contact>& contacts);
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -9,7 +9,7 @@
 #include "solver/optimizer/normal_equations.h"
 #include "solver/problem/parallel.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // One direction of the pass, from the template's frame outwards.
@@ -196,4 +196,4 @@ Unknowns QuasiStaticPass(const Problem& problem, const Unknowns& start,
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

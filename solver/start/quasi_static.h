@@ -7,7 +7,7 @@
 
 #include "solver/problem/problem.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 struct QuasiStaticOptions {
   int most_iterations = 8;     // per frame; ten times as many in the first
@@ -22,4 +22,4 @@ struct QuasiStaticOptions {
 Unknowns QuasiStaticPass(const Problem& problem, const Unknowns& start,
                          const QuasiStaticOptions& options = {});
 
-}  // namespace retarget
+}  // namespace retarget::solver

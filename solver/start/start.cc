@@ -4,7 +4,7 @@
 #include "model/geometry/so3.h"
 #include "solver/start/quasi_static.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // Marks the links that carry a node, and all they hang on.
@@ -82,4 +82,4 @@ Unknowns TemplateStart(const Problem& problem) {
   return QuasiStaticPass(problem, UnknownsFromPoses(scene, TemplateRelativePoses(scene)));
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -5,7 +5,7 @@
 
 #include "solver/problem/problem.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // The template-relative start: the template posture, carried frame by frame through the clip. The
 // pair is laid into the template at scene.template_frame; from there a quasi-static pass
@@ -17,4 +17,4 @@ Unknowns TemplateStart(const Problem& problem);
 // that no tag or hold depends on as captured.
 std::array<Clip, 2> TemplateRelativePoses(const Scene& scene);
 
-}  // namespace retarget
+}  // namespace retarget::solver

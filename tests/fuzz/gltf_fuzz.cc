@@ -24,7 +24,7 @@ void CheckMessage(const InputError& error) {
   }
 }
 
-void CheckFrames(const GltfClip& clip) {
+void CheckFrames(const io::GltfClip& clip) {
   if (clip.motion.frames.empty() || clip.joints.empty()) Broken("no frames");
   for (const RigFrame& frame : clip.motion.frames) {
     for (size_t j = 0; j < clip.joints.size(); ++j) {
@@ -37,21 +37,21 @@ void CheckFrames(const GltfClip& clip) {
 }
 
 void TakeApart(const std::string& bytes) {
-  GltfClip clip;
+  io::GltfClip clip;
   try {
-    clip = ParseGltf(bytes, "a.glb", "");
+    clip = io::ParseGltf(bytes, "a.glb", "");
   } catch (const InputError& error) {
     CheckMessage(error);
     // Where there is a choice, the first will do.
     try {
-      clip = ParseGltf(bytes, "a.glb", "", {"0", "0"});
+      clip = io::ParseGltf(bytes, "a.glb", "", {"0", "0"});
     } catch (const InputError& again) {
       return CheckMessage(again);
     }
   }
   CheckFrames(clip);
   try {
-    for (const double radius : BoneRadii(clip)) {
+    for (const double radius : io::BoneRadii(clip)) {
       if (!(radius >= 0)) Broken("a radius is no length");
     }
   } catch (const InputError& error) {
@@ -59,13 +59,13 @@ void TakeApart(const std::string& bytes) {
   }
   std::string written;
   try {
-    written = FormatGltf(clip, clip.motion, 0, "retargeted");
+    written = io::FormatGltf(clip, clip.motion, 0, "retargeted");
   } catch (const InputError& error) {
     return CheckMessage(error);
   }
   try {
     // Its skin is not selected again: a document may hold several characters.
-    const GltfClip again = ParseGltf(written, "again", "", {"retargeted", ""});
+    const io::GltfClip again = io::ParseGltf(written, "again", "", {"retargeted", ""});
     if (again.motion.num_frames() != clip.motion.num_frames()) {
       std::cerr << again.motion.num_frames() << " frames for " << clip.motion.num_frames() << "\n";
     }

@@ -30,29 +30,30 @@ void ExpectOneLine(const InputError& error) {
   Expect(!line.empty() && line.size() < 1000 && line.find('\n') == std::string::npos);
 }
 
-bool NeedsSolver(const Operation& operation) {
-  return std::holds_alternative<Drag>(operation) || std::holds_alternative<DragRay>(operation) ||
-         std::holds_alternative<Settle>(operation);
+bool NeedsSolver(const posing::Operation& operation) {
+  return std::holds_alternative<posing::Drag>(operation) ||
+         std::holds_alternative<posing::DragRay>(operation) ||
+         std::holds_alternative<posing::Settle>(operation);
 }
 
 // The state after a message's operations; throws InputError.
-PoseState Done(const std::string& text, PoseState state) {
-  const Message message = ParseMessage(text);
-  const Fields fields(message, "");
+posing::PoseState Done(const std::string& text, posing::PoseState state) {
+  const io::Message message = io::ParseMessage(text);
+  const io::Fields fields(message, "");
   fields.Only({"session", "ops", "live", "thumbnail"});
   fields.Bool("live", false);
-  if (fields.Has("thumbnail")) FromBase64(fields.Text("thumbnail", 1000));
-  for (const Fields& op : fields.ObjectList("ops", 64)) {
-    const PoseStep step = ParsePoseJson(op, state.posture);
-    const Operation* operation = std::get_if<Operation>(&step);
-    if (operation && !NeedsSolver(*operation)) state = Edited(state, *operation);
+  if (fields.Has("thumbnail")) studio::FromBase64(fields.Text("thumbnail", 1000));
+  for (const io::Fields& op : fields.ObjectList("ops", 64)) {
+    const posing::PoseStep step = posing::ParsePoseJson(op, state.posture);
+    const posing::Operation* operation = std::get_if<posing::Operation>(&step);
+    if (operation && !NeedsSolver(*operation)) state = posing::Edited(state, *operation);
   }
   return state;
 }
 
 void Try(const std::string& text) {
-  PoseState state;
-  static const TemplatePosture start = ParseTemplate(kStart, "start");
+  posing::PoseState state;
+  static const TemplatePosture start = io::ParseTemplate(kStart, "start");
   state.posture = start;
   try {
     state = Done(text, state);
@@ -62,8 +63,8 @@ void Try(const std::string& text) {
   }
   std::string saved;
   try {
-    saved = FormatTemplate(state.posture);
-    ParseTemplate(saved, "saved");
+    saved = io::FormatTemplate(state.posture);
+    io::ParseTemplate(saved, "saved");
   } catch (const InputError& error) {  // what was accepted can be saved
     fprintf(stderr, "%s\n%s\n", error.what(), saved.c_str());
     std::abort();

@@ -6,7 +6,7 @@
 #include "io/recognition/recognise.h"
 #include "tests/rig_figure.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 void ExpectEqual(const JointMap& a, const JointMap& b) {
@@ -146,4 +146,4 @@ TEST(MapFile, DraftsCanBeFilledIn) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -13,7 +13,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // The message with which `action` refuses; empty if it does not.
@@ -233,4 +233,4 @@ TEST(SettingsFileTest, ReadsFiles) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -10,7 +10,7 @@
 #include "model/geometry/so3.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // One of everything. The tests of errors count its lines.
@@ -590,4 +590,4 @@ TEST(TemplateFileTest, DamagedTextsAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -10,7 +10,7 @@
 #include "solver/start/start.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 int AddLink(Body* body, const std::string& name, int parent, const Vec3& centre) {
@@ -221,4 +221,4 @@ TEST(GrownBody, TheTemplateFitsAndAStartIsFound) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "solver/problem/scene.h"
 #include "solver/start/fit_template.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 inline Quat Turn(double x_deg, double y_deg, double z_deg) {
   return ExpSo3(Vec3(x_deg, y_deg, z_deg) * kDegree);
@@ -100,4 +100,4 @@ inline Scene SmallScene(int frames, double size_rad, bool follow = false) {
   return scene;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

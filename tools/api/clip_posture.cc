@@ -4,7 +4,7 @@
 
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::api {
 namespace {
 
 // Upright as it is, over (0, z), with its front along `yaw`.
@@ -17,7 +17,7 @@ Pose Facing(const Pose& pose, double yaw, double z) {
 
 }  // namespace
 
-TemplatePosture PostureOfFrames(const std::array<const LoadedClip*, 2>& clip,
+TemplatePosture PostureOfFrames(const std::array<const io::LoadedClip*, 2>& clip,
                                 const std::array<int, 2>& frame, bool together) {
   TemplatePosture posture;
   posture.name = "from clips";
@@ -36,4 +36,4 @@ TemplatePosture PostureOfFrames(const std::array<const LoadedClip*, 2>& clip,
   return posture;
 }
 
-}  // namespace retarget
+}  // namespace retarget::api

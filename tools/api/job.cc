@@ -12,7 +12,7 @@
 #include "tools/api/version.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::api {
 namespace {
 
 FrameRange ParseFrames(const std::string& text, int available) {
@@ -33,18 +33,19 @@ FrameRange ParseFrames(const std::string& text, int available) {
 }  // namespace
 
 Settings EffectiveSettings(const RetargetOptions& options) {
-  Settings settings = options.config_path.empty() ? Settings{} : ReadSettings(options.config_path);
-  for (const std::string& assignment : options.set) SetByName(&settings, assignment);
+  Settings settings =
+      options.config_path.empty() ? Settings{} : io::ReadSettings(options.config_path);
+  for (const std::string& assignment : options.set) io::SetByName(&settings, assignment);
   if (options.threads >= 0) settings.solve.threads = options.threads;
-  ParseStages(settings.solve.stages);
+  solver::ParseStages(settings.solve.stages);
   return settings;
 }
 
 std::vector<std::string> InputPaths(const RetargetOptions& options) {
   std::vector<std::string> paths = {options.template_path};
-  for (const ClipOptions& clip : options.clip) {
+  for (const io::ClipOptions& clip : options.clip) {
     for (const std::string& text : {clip.path, clip.character}) {
-      const ClipPath path = ParseClipPath(text);
+      const io::ClipPath path = io::ParseClipPath(text);
       paths.push_back(path.path);
       if (!path.skeleton.empty()) paths.push_back(path.skeleton);
     }
@@ -54,13 +55,13 @@ std::vector<std::string> InputPaths(const RetargetOptions& options) {
 
 Job LoadJob(const RetargetOptions& options) {
   Job job;
-  job.input.posture = ReadTemplate(options.template_path);
+  job.input.posture = io::ReadTemplate(options.template_path);
   double common = 1e300;
   for (int f = 0; f < 2; ++f) {
-    job.clip[f] = LoadClip(options.clip[f]);
+    job.clip[f] = io::LoadClip(options.clip[f]);
     common = std::min(common, job.clip[f].duration() - options.clip[f].start);
   }
-  const auto is_gltf = [](const LoadedClip& clip) { return clip.file.format == "glTF"; };
+  const auto is_gltf = [](const io::LoadedClip& clip) { return clip.file.format == "glTF"; };
   if (options.show == "characters" && !is_gltf(job.clip[0]) && !is_gltf(job.clip[1])) {
     throw InputError("--show characters: neither clip is, or is put on, a glTF character");
   }
@@ -84,7 +85,7 @@ Job LoadJob(const RetargetOptions& options) {
 void TellNotes(const Job& job) {
   for (int f = 0; f < 2; ++f) {
     const RigFacts& facts = job.clip[f].facts;
-    fmt::print(stderr, "clip {}: {}, profile {}, {} up {}, stature {:.2f} m\n", kFigure[f],
+    fmt::print(stderr, "clip {}: {}, profile {}, {} up {}, stature {:.2f} m\n", report::kFigure[f],
                job.clip[f].options.path, facts.map.profile, facts.unit_name, facts.up,
                job.input.body[f].stature);
     if (!job.clip[f].options.character.empty()) {
@@ -100,12 +101,12 @@ namespace {
 // `motion`: of the scene's bodies, from its first frame on; `scene`: its file.
 std::string ShowCharacters(const Job& job, const std::array<Clip, 2>& motion,
                            const std::string& scene, std::vector<std::string>* notes) {
-  std::array<ScaledGltf, 2> scaled;
-  std::array<SceneCharacter, 2> character;
-  std::array<const SceneCharacter*, 2> shown = {nullptr, nullptr};
+  std::array<io::ScaledGltf, 2> scaled;
+  std::array<io::SceneCharacter, 2> character;
+  std::array<const io::SceneCharacter*, 2> shown = {nullptr, nullptr};
   for (int f = 0; f < 2; ++f) {
-    const LoadedClip& clip = job.clip[f];
-    const auto* gltf = std::get_if<GltfClip>(&clip.file.original);
+    const io::LoadedClip& clip = job.clip[f];
+    const auto* gltf = std::get_if<io::GltfClip>(&clip.file.original);
     if (gltf == nullptr) continue;
     const double fps = motion[f].fps;
     RigMotion own;
@@ -116,16 +117,17 @@ std::string ShowCharacters(const Job& job, const std::array<Clip, 2>& motion,
       own.frames.push_back(
           clip.binding->Apply(SampleRig(clip.file.motion, time), motion[f].frames[t]));
     }
-    scaled[f] = ScaleGltf(*gltf, own, clip.binding->stature_ratio());
+    scaled[f] = io::ScaleGltf(*gltf, own, clip.binding->stature_ratio());
     character[f] = {&scaled[f].clip, &scaled[f].motion};
     shown[f] = &character[f];
   }
-  return FormatCharacterScene(scene, shown, notes);
+  return io::FormatCharacterScene(scene, shown, notes);
 }
 
 std::string SceneBytes(const std::array<Body, 2>& body, const std::array<Clip, 2>& clips) {
-  return FormatSceneGlb(
-      {{"a", &body[0], &clips[0], kColourA}, {"b", &body[1], &clips[1], kColourB}}, kGenerator);
+  return io::FormatSceneGlb(
+      {{"a", &body[0], &clips[0], io::kColourA}, {"b", &body[1], &clips[1], io::kColourB}},
+      kGenerator);
 }
 
 }  // namespace
@@ -136,15 +138,16 @@ void CheckCharacters(const Job& job) {
   ShowCharacters(job, first, SceneBytes(job.input.body, first), nullptr);
 }
 
-std::string CharacterScene(const Job& job, const RetargetResult& result, const std::string& scene) {
+std::string CharacterScene(const Job& job, const solver::RetargetResult& result,
+                           const std::string& scene) {
   std::vector<std::string> notes;
   std::string bytes = ShowCharacters(job, result.solved, scene, &notes);
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   return bytes;
 }
 
-std::string SceneBytes(const Scene& scene, const std::array<Clip, 2>& clips) {
+std::string SceneBytes(const solver::Scene& scene, const std::array<Clip, 2>& clips) {
   return SceneBytes(scene.body, clips);
 }
 
-}  // namespace retarget
+}  // namespace retarget::api

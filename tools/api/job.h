@@ -10,7 +10,7 @@
 #include "solver/retarget.h"
 #include "tools/api/options.h"
 
-namespace retarget {
+namespace retarget::api {
 
 struct FrameRange {
   int first, last;  // half-open
@@ -20,8 +20,8 @@ struct FrameRange {
 Settings EffectiveSettings(const RetargetOptions& options);
 
 struct Job {
-  std::array<LoadedClip, 2> clip;
-  RetargetInput input;
+  std::array<io::LoadedClip, 2> clip;
+  solver::RetargetInput input;
   FrameRange frames;
 };
 
@@ -36,9 +36,10 @@ void TellNotes(const Job& job);
 void CheckCharacters(const Job& job);
 
 // The scene of the solved motion with the glTF characters of the clips in place of their figures.
-std::string CharacterScene(const Job& job, const RetargetResult& result, const std::string& scene);
+std::string CharacterScene(const Job& job, const solver::RetargetResult& result,
+                           const std::string& scene);
 
 // A scene file of two motions of the scene's bodies.
-std::string SceneBytes(const Scene& scene, const std::array<Clip, 2>& clips);
+std::string SceneBytes(const solver::Scene& scene, const std::array<Clip, 2>& clips);
 
-}  // namespace retarget
+}  // namespace retarget::api

@@ -7,10 +7,10 @@
 
 #include "io/load_clip.h"
 
-namespace retarget {
+namespace retarget::api {
 
 struct RetargetOptions {
-  std::array<ClipOptions, 2> clip;
+  std::array<io::ClipOptions, 2> clip;
   std::string template_path, config_path, out = "out", frames;
   std::vector<std::string> set;
   std::string show = "figures";  // of scene.glb: "figures" or "characters"
@@ -21,4 +21,4 @@ struct RetargetOptions {
   bool quiet = false;  // says nothing of the result
 };
 
-}  // namespace retarget
+}  // namespace retarget::api

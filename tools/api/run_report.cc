@@ -7,7 +7,7 @@
 #include "solver/problem/parallel.h"
 #include "tools/api/version.h"
 
-namespace retarget {
+namespace retarget::api {
 namespace {
 
 int64_t PeakBytes() {
@@ -16,11 +16,11 @@ int64_t PeakBytes() {
   return static_cast<int64_t>(usage.ru_maxrss) * 1024;
 }
 
-Json InputsJson(const RetargetOptions& options, const Job& job) {
-  Json inputs;
+report::Json InputsJson(const RetargetOptions& options, const Job& job) {
+  report::Json inputs;
   for (int f = 0; f < 2; ++f) {
-    const LoadedClip& clip = job.clip[f];
-    Json& input = inputs["clip_" + std::string(kFigure[f])];
+    const io::LoadedClip& clip = job.clip[f];
+    report::Json& input = inputs["clip_" + std::string(report::kFigure[f])];
     input = {{"file", clip.options.path},
              {"hash", clip.motion_facts ? clip.motion_hash : clip.hash},
              {"format", clip.file.format},
@@ -40,17 +40,17 @@ Json InputsJson(const RetargetOptions& options, const Job& job) {
   }
   inputs["template"] = {{"file", options.template_path},
                         {"name", job.input.posture.name},
-                        {"hash", HashOf(ReadFile(options.template_path))},
+                        {"hash", io::HashOf(io::ReadFile(options.template_path))},
                         {"at_s", options.template_at}};
   inputs["frames"] = {job.frames.first, job.frames.last};
   inputs["fps"] = options.fps;
   return inputs;
 }
 
-Json SolveJson(const RetargetResult& result) {
-  Json history = Json::array();
-  for (const Iteration& i : result.solve.history) {
-    Json terms;
+report::Json SolveJson(const solver::RetargetResult& result) {
+  report::Json history = report::Json::array();
+  for (const solver::Iteration& i : result.solve.history) {
+    report::Json terms;
     for (size_t k = 0; k < i.term_cost.size(); ++k) terms[result.costs[k].name] = i.term_cost[k];
     history.push_back({{"stage", i.stage},
                        {"iteration", i.index},
@@ -62,8 +62,8 @@ Json SolveJson(const RetargetResult& result) {
                        {"seconds", i.seconds},
                        {"terms", terms}});
   }
-  Json terms = Json::array();
-  for (const TermCost& c : result.costs) {
+  report::Json terms = report::Json::array();
+  for (const solver::TermCost& c : result.costs) {
     terms.push_back({{"term", c.name},
                      {"unit", c.unit},
                      {"weight", c.weight},
@@ -83,8 +83,10 @@ Json SolveJson(const RetargetResult& result) {
       {"history", history}};
 }
 
-Json StartJson(const StartChoice& start) {
-  const auto cost = [](const std::optional<double>& c) { return c ? Json(*c) : Json(nullptr); };
+report::Json StartJson(const solver::StartChoice& start) {
+  const auto cost = [](const std::optional<double>& c) {
+    return c ? report::Json(*c) : report::Json(nullptr);
+  };
   return {{"requested", start.requested},
           {"used", start.used},
           {"reason", start.reason},
@@ -92,36 +94,36 @@ Json StartJson(const StartChoice& start) {
            {{"simulated", cost(start.simulated_cost)}, {"template", cost(start.template_cost)}}}};
 }
 
-Json PlacementJson(const Placement& p) {
+report::Json PlacementJson(const solver::Placement& p) {
   return {{"yaw_rad", p.yaw}, {"shift_m", {p.shift.x(), p.shift.y(), p.shift.z()}}};
 }
 
 // Where the solved motion of one figure went, and what it was read from.
-Json WriteBackJson(const RunFacts& run, int f) {
+report::Json WriteBackJson(const RunFacts& run, int f) {
   const RigFacts& facts = run.job.clip[f].facts;
-  const ClipFile& file = run.job.clip[f].file;
-  Json written = {{"file", run.rig[f].files[0].name},
-                  {"format", file.format},
-                  {"units", facts.metres_per_unit},
-                  {"up", std::string(1, facts.up)},
-                  {"largest_error_m", run.rig[f].error_m}};
+  const io::ClipFile& file = run.job.clip[f].file;
+  report::Json written = {{"file", run.rig[f].files[0].name},
+                          {"format", file.format},
+                          {"units", facts.metres_per_unit},
+                          {"up", std::string(1, facts.up)},
+                          {"largest_error_m", run.rig[f].error_m}};
   if (file.format == "Acclaim") {
     written["skeleton"] = run.rig[f].files[1].name;
     written["fps"] = 1 / file.motion.frame_time;
   }
   if (file.format == "glTF") {
-    written["animation"] = kAnimationName;
+    written["animation"] = io::kAnimationName;
     if (!file.select.skin.empty()) written["skin"] = file.select.skin;
   }
-  for (const NodeJoint& pair : run.rig[f].joints) {
+  for (const report::NodeJoint& pair : run.rig[f].joints) {
     written["joints"][run.job.input.body[f].nodes[pair.node].name] =
         run.job.clip[f].file.motion.rig.joints[pair.joint].name;
   }
   return written;
 }
 
-Json SupportsJson(const RunFacts& run, int f) {
-  Json nodes = Json::array();
+report::Json SupportsJson(const RunFacts& run, int f) {
+  report::Json nodes = report::Json::array();
   for (const int n : run.result.scene.posture.supports[f]) {
     nodes.push_back(run.job.input.body[f].nodes[n].name);
   }
@@ -130,29 +132,29 @@ Json SupportsJson(const RunFacts& run, int f) {
 
 }  // namespace
 
-Json RunReport(const RunFacts& run, const Metrics& source, const Metrics& baseline,
-               const Metrics& metrics) {
-  const RetargetResult& result = run.result;
-  Json report = {{"generator", kGenerator},
-                 {"format", 1},
-                 {"exit_code", run.exit_code},
-                 {"requirements_met", AllMet(run.checks)}};
+report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
+                       const solver::Metrics& baseline, const solver::Metrics& metrics) {
+  const solver::RetargetResult& result = run.result;
+  report::Json report = {{"generator", kGenerator},
+                         {"format", 1},
+                         {"exit_code", run.exit_code},
+                         {"requirements_met", solver::AllMet(run.checks)}};
   report["inputs"] = InputsJson(run.options, run.job);
   report["frames"] = result.scene.num_frames();
   report["fps"] = result.scene.fps();
-  report.update(SubjectJson(run.subject, metrics));
+  report.update(report::SubjectJson(run.subject, metrics));
   for (int f = 0; f < 2; ++f) {
-    report["supports"][kFigure[f]] = SupportsJson(run, f);
-    report["placement"][kFigure[f]] = PlacementJson(result.placement[f]);
-    report["write_back"][kFigure[f]] = WriteBackJson(run, f);
+    report["supports"][report::kFigure[f]] = SupportsJson(run, f);
+    report["placement"][report::kFigure[f]] = PlacementJson(result.placement[f]);
+    report["write_back"][report::kFigure[f]] = WriteBackJson(run, f);
   }
-  report["metrics"] = ThreeMetricsJson(run.subject, source, &baseline, metrics);
-  report["requirements"] = ChecksJson(run.checks);
-  report["conflicts"] = ConflictsJson(run.conflicts);
+  report["metrics"] = report::ThreeMetricsJson(run.subject, source, &baseline, metrics);
+  report["requirements"] = report::ChecksJson(run.checks);
+  report["conflicts"] = report::ConflictsJson(run.conflicts);
   report["warnings"] = result.warnings;
   report["literal_tangles"] = result.tangles.literal.size();
   report["solve"] = SolveJson(result);
-  report["simulation"] = SimulationJson(result.simulation);
+  report["simulation"] = report::SimulationJson(result.simulation);
   report["start"] = StartJson(result.start);
   report["iterations"] = result.solve.iterations;
   report["timings"] = {{"start_s", result.start_seconds},
@@ -161,12 +163,12 @@ Json RunReport(const RunFacts& run, const Metrics& source, const Metrics& baseli
                        {"frames_per_s", result.scene.num_frames() / result.solve.seconds}};
   report["memory"] = {{"peak_bytes", PeakBytes()}};
   report["versions"] = {{"retarget", kVersion},
-                        {"kernels", KernelName()},
-                        {"threads", NumThreads(run.settings.solve.threads)}};
+                        {"kernels", solver::KernelName()},
+                        {"threads", solver::NumThreads(run.settings.solve.threads)}};
   VisitSettings(run.settings, [&](const std::string& key, const auto& value, auto&&...) {
     report["configuration"][key] = value;
   });
   return report;
 }
 
-}  // namespace retarget
+}  // namespace retarget::api

@@ -8,12 +8,12 @@
 #include "tools/api/job.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::api {
 
 // A solved motion on the rig it came from.
 struct WrittenRig {
-  std::vector<NamedBytes> files;  // the motion first
-  std::vector<NodeJoint> joints;
+  std::vector<io::NamedBytes> files;  // the motion first
+  std::vector<report::NodeJoint> joints;
   double error_m = 0;  // against the scene
 };
 
@@ -21,15 +21,15 @@ struct RunFacts {
   const RetargetOptions& options;
   const Settings& settings;
   const Job& job;
-  const RetargetResult& result;
-  const MeasureSubject& subject;
-  const std::vector<RequirementCheck>& checks;
-  const std::vector<Conflict>& conflicts;
+  const solver::RetargetResult& result;
+  const solver::MeasureSubject& subject;
+  const std::vector<solver::RequirementCheck>& checks;
+  const std::vector<solver::Conflict>& conflicts;
   int exit_code;
   const std::array<WrittenRig, 2>& rig;
 };
 
-Json RunReport(const RunFacts& run, const Metrics& source, const Metrics& baseline,
-               const Metrics& metrics);
+report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
+                       const solver::Metrics& baseline, const solver::Metrics& metrics);
 
-}  // namespace retarget
+}  // namespace retarget::api

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-namespace retarget {
+namespace retarget::api {
 
-Json TangleJson(const Body& a, const Body& b, const Tangle& t) {
+report::Json TangleJson(const Body& a, const Body& b, const Tangle& t) {
   return {{"a", {a.nodes[t.a.from].name, a.nodes[t.a.to].name}},
           {"b", {b.nodes[t.b.from].name, b.nodes[t.b.to].name}},
           {"gli", t.gli}};
@@ -39,18 +39,18 @@ std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::
 TemplateCheck CheckTemplate(const TemplatePosture& posture) {
   const Settings settings;
   TemplateCheck check;
-  check.tangles = FindTemplateTangles(posture, settings.tangle);
-  Scene scene;
+  check.tangles = solver::FindTemplateTangles(posture, settings.tangle);
+  solver::Scene scene;
   scene.body = posture.body;
-  scene.tangles = HoldTangles(check.tangles.tags, posture, settings.tangle.margin);
+  scene.tangles = solver::HoldTangles(check.tangles.tags, posture, settings.tangle.margin);
   scene.holds = posture.holds;
   for (int f = 0; f < 2; ++f) scene.source[f].frames = {posture.pose[f]};
-  const MeasureSubject subject = SubjectOf(scene);
-  const MotionView view = ViewOf(scene.body, scene.source);
-  check.metrics = Measure(subject, view, view);
-  check.checks = CheckRequirements(subject, check.metrics, settings.requirements);
+  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  const solver::MotionView view = solver::ViewOf(scene.body, scene.source);
+  check.metrics = solver::Measure(subject, view, view);
+  check.checks = solver::CheckRequirements(subject, check.metrics, settings.requirements);
   check.warnings = TagWarnings(posture, check.tangles.tags);
   return check;
 }
 
-}  // namespace retarget
+}  // namespace retarget::api

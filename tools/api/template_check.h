@@ -9,14 +9,14 @@
 #include "solver/start/fit_template.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::api {
 
 struct TemplateCheck {
-  TemplateTangles tangles;
-  Metrics metrics;
-  std::vector<RequirementCheck> checks;
+  solver::TemplateTangles tangles;
+  solver::Metrics metrics;
+  std::vector<solver::RequirementCheck> checks;
   std::vector<std::string> warnings;  // weak tags and the like
-  bool met() const { return AllMet(checks); }
+  bool met() const { return solver::AllMet(checks); }
 };
 inline constexpr double kWeakGli = 0.6;     // turns: a tag under it is weak
 inline constexpr double kEasilyLost = 0.1;  // robustness radius of a tag (rad, m)
@@ -26,6 +26,6 @@ std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::
 
 // "a (left_hand, right_hand) x b (neck, root)".
 std::string TangleLine(const Body& a, const Body& b, const Tangle& tangle);
-Json TangleJson(const Body& a, const Body& b, const Tangle& tangle);
+report::Json TangleJson(const Body& a, const Body& b, const Tangle& tangle);
 
-}  // namespace retarget
+}  // namespace retarget::api

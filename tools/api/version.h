@@ -1,6 +1,6 @@
 #pragma once
 
-namespace retarget {
+namespace retarget::api {
 inline constexpr const char* kVersion = RETARGET_VERSION;
 inline constexpr const char* kGenerator = "retarget " RETARGET_VERSION;
-}  // namespace retarget
+}  // namespace retarget::api

@@ -9,15 +9,15 @@
 
 namespace retarget {
 
-RetargetInput LoadExample(const std::string& folder, int num_frames) {
+solver::RetargetInput LoadExample(const std::string& folder, int num_frames) {
   constexpr double kFps = 30;
-  RetargetInput input;
-  input.posture = ReadTemplate(folder + "/template.yaml");
+  solver::RetargetInput input;
+  input.posture = io::ReadTemplate(folder + "/template.yaml");
   for (int f = 0; f < 2; ++f) {
-    ClipOptions options;
+    io::ClipOptions options;
     options.option = std::string(1, "ab"[f]);
     options.path = folder + "/" + options.option + ".bvh";
-    const LoadedClip clip = LoadClip(options);
+    const io::LoadedClip clip = io::LoadClip(options);
     const int available = static_cast<int>(std::floor(clip.duration() * kFps + 1e-3)) + 1;
     input.body[f] = clip.binding->body();
     input.clip[f] = clip.Resampled(kFps, 0, available);

@@ -29,14 +29,15 @@ double CpuSecondsNow() {
 // Fills the frames' blocks and counts the seconds.
 class TimedAssembly {
  public:
-  TimedAssembly(const Problem& problem, const Unknowns& x) : problem_(problem), x_(x) {}
+  TimedAssembly(const solver::Problem& problem, const solver::Unknowns& x)
+      : problem_(problem), x_(x) {}
 
-  void Fill(int t, FrameBlock* block) {
+  void Fill(int t, solver::FrameBlock* block) {
     const double started = CpuSecondsNow();
     frame_.Set(problem_.scene(), x_, t, true);
     problem_.EvaluateFrame(frame_, 1, true, &rows_);
     const double evaluated = CpuSecondsNow();
-    FillBlock(problem_, rows_, x_.edit, t, block);
+    solver::FillBlock(problem_, rows_, x_.edit, t, block);
     terms_s += evaluated - started;
     normal_equations_s += CpuSecondsNow() - evaluated;
     num_rows += rows_.num_rows();
@@ -46,15 +47,15 @@ class TimedAssembly {
   long num_rows = 0;
 
  private:
-  const Problem& problem_;
-  const Unknowns& x_;
-  Frame frame_;
-  Rows rows_;
+  const solver::Problem& problem_;
+  const solver::Unknowns& x_;
+  solver::Frame frame_;
+  solver::Rows rows_;
 };
 
-BandedSystem SystemOf(const Problem& problem) {
-  return BandedSystem(problem.scene().num_frames(), AnchorSpans(problem.scene()),
-                      problem.smoothness().weight().array().square());
+solver::BandedSystem SystemOf(const solver::Problem& problem) {
+  return solver::BandedSystem(problem.scene().num_frames(), solver::AnchorSpans(problem.scene()),
+                              problem.smoothness().weight().array().square());
 }
 
 // Least seconds of several runs of `work` by a clock, in ms per frame.
@@ -69,16 +70,17 @@ double LeastMs(int num_frames, double (*now)(), const Work& work) {
   return 1e3 * least / num_frames;
 }
 
-void MeasureLinearSolve(const Problem& problem, const Unknowns& x, IterationSplit* split) {
+void MeasureLinearSolve(const solver::Problem& problem, const solver::Unknowns& x,
+                        IterationSplit* split) {
   const int n = problem.scene().num_frames();
   VecX damping = VecX::Constant(n, problem.settings().solve.initial_damping);
-  BandedSystem system = SystemOf(problem);
-  BandedStep step;
+  solver::BandedSystem system = SystemOf(problem);
+  solver::BandedStep step;
   const auto solve = [&](int threads) {
     std::array<TimedAssembly, 2> assembly = {TimedAssembly(problem, x), TimedAssembly(problem, x)};
     const double started = CpuSecondsNow();
     const bool solved = system.Solve(
-        [&](int t, int thread, FrameBlock* block) {
+        [&](int t, int thread, solver::FrameBlock* block) {
           assembly[static_cast<size_t>(threads > 1 ? thread : 0)].Fill(t, block);
         },
         damping, threads, &step);
@@ -102,13 +104,13 @@ void MeasureLinearSolve(const Problem& problem, const Unknowns& x, IterationSpli
     split->factorisation_ms = std::min(split->factorisation_ms, to_ms * rest);
     split->rows = static_cast<double>(assembly.num_rows) / n;
   }
-  split->linear_two_threads_ms = LeastMs(n, SecondsNow, [&] { solve(2); });
+  split->linear_two_threads_ms = LeastMs(n, solver::SecondsNow, [&] { solve(2); });
 }
 
 // The guard looks at every frame twice: as it was and as it would be.
-void MeasureGuard(const Scene& scene, const Unknowns& x, IterationSplit* split) {
+void MeasureGuard(const solver::Scene& scene, const solver::Unknowns& x, IterationSplit* split) {
   std::vector<NodePositions> nodes;
-  Frame frame;
+  solver::Frame frame;
   for (int t = 0; t < scene.num_frames(); ++t) {
     frame.Set(scene, x, t, false);
     nodes.push_back({frame.posed[0].node, frame.posed[1].node});
@@ -124,7 +126,7 @@ void MeasureGuard(const Scene& scene, const Unknowns& x, IterationSplit* split) 
 
 }  // namespace
 
-IterationSplit MeasureIterationSplit(const Problem& problem, const Unknowns& x) {
+IterationSplit MeasureIterationSplit(const solver::Problem& problem, const solver::Unknowns& x) {
   const int n = problem.scene().num_frames();
   IterationSplit split;
   MeasureLinearSolve(problem, x, &split);
@@ -132,8 +134,9 @@ IterationSplit MeasureIterationSplit(const Problem& problem, const Unknowns& x) 
   double cost = 0;
   split.cost_ms = LeastMs(n, CpuSecondsNow, [&] { cost += problem.Cost(x, 1, 1); });
   if (cost < 0) throw std::logic_error("a cost is negative");  // keeps the loop alive
-  Iteration iteration;
-  split.report_ms = LeastMs(n, CpuSecondsNow, [&] { MeasureIteration(problem, x, 1, &iteration); });
+  solver::Iteration iteration;
+  split.report_ms =
+      LeastMs(n, CpuSecondsNow, [&] { solver::MeasureIteration(problem, x, 1, &iteration); });
   return split;
 }
 

@@ -21,7 +21,7 @@ struct IterationSplit {
 };
 
 // Takes the iteration apart at `x`, with the public parts that the solver itself is made of.
-IterationSplit MeasureIterationSplit(const Problem& problem, const Unknowns& x);
+IterationSplit MeasureIterationSplit(const solver::Problem& problem, const solver::Unknowns& x);
 
 // What eliminating a frame of `n` coordinates costs at least, in flops. The coupling of a frame
 // with the next but one is diagonal, so its part of L is triangular:

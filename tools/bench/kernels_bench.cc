@@ -36,7 +36,7 @@ struct Hold {
 const Hold& TheHold() {
   static const Hold hold = [] {
     Hold h;
-    h.posture = ReadTemplate(std::string(RETARGET_EXAMPLE_DIR) + "/template.yaml");
+    h.posture = io::ReadTemplate(std::string(RETARGET_EXAMPLE_DIR) + "/template.yaml");
     for (int f = 0; f < 2; ++f) h.posed[f] = PoseBody(h.posture.body[f], h.posture.pose[f]);
     return h;
   }();
@@ -119,18 +119,18 @@ BENCHMARK(PathPair8x8);
 
 // The whole residual: also the chain rule to the 120 coordinates of the frame.
 void TangleResidual8x8(benchmark::State& state) {
-  Scene scene;
+  solver::Scene scene;
   scene.body = TheHold().posture.body;
   for (int f = 0; f < 2; ++f) scene.source[f].frames = {TheHold().posture.pose[f]};
-  HeldTangle held;
+  solver::HeldTangle held;
   held.tag.tangle = {HandToHand(scene.body[0]), HandToHand(scene.body[1]), 0};
   held.target = 10;  // out of reach, so that the hinge is always active
   scene.tangles = {held};
-  const TangleTerm term(scene);
-  const Unknowns still = {MatX::Zero(scene.num_coordinates(), 1), MatX::Zero(3, 0)};
-  Frame frame;
+  const solver::TangleTerm term(scene);
+  const solver::Unknowns still = {MatX::Zero(scene.num_coordinates(), 1), MatX::Zero(3, 0)};
+  solver::Frame frame;
   frame.Set(scene, still, 0, true);
-  Rows rows;
+  solver::Rows rows;
   for (auto _ : state) {
     rows.Reset(frame, true);
     term.Evaluate(frame, &rows);
@@ -164,7 +164,7 @@ void NormalEquations(benchmark::State& state) {
   MatX h = MatX::Zero(n, n);
   VecX g = VecX::Zero(n);
   for (auto _ : state) {
-    AddNormalEquations(jt.data(), r.data(), rows, n, h.data(), g.data());
+    solver::AddNormalEquations(jt.data(), r.data(), rows, n, h.data(), g.data());
     benchmark::ClobberMemory();
   }
   // One triangle, multiply and add, and J^T r.
@@ -191,7 +191,7 @@ void Elimination(benchmark::State& state) {
     a = original;
     b = VecX::Ones(size);
     state.ResumeTiming();
-    DoNotOptimize(PartialCholesky(a.data(), size, size, own, 120, b.data()));
+    DoNotOptimize(solver::PartialCholesky(a.data(), size, size, own, 120, b.data()));
   }
   state.counters["GFLOP/s"] = GigaflopRate(EliminationFlops(size, own));
 }

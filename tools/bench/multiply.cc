@@ -17,7 +17,7 @@ namespace retarget {
 
 void Multiply(const double* a, const double* b, int m, int n, int k, double* c) {
 #ifdef RETARGET_X86_KERNELS
-  const std::string_view isa = KernelName();
+  const std::string_view isa = solver::KernelName();
   if (isa == "avx512") return retarget_multiply_avx512(a, b, m, n, k, c);
   if (isa == "avx2") return retarget_multiply_avx2(a, b, m, n, k, c);
 #endif
@@ -30,9 +30,9 @@ double MeasureMultiplyRate() {
   MatX c = MatX::Zero(kRows, kRows);
   double best = 1e300;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const double started = SecondsNow();
+    const double started = solver::SecondsNow();
     Multiply(a.data(), b.data(), kRows, kRows, kInner, c.data());
-    best = std::min(best, SecondsNow() - started);
+    best = std::min(best, solver::SecondsNow() - started);
   }
   return MultiplyFlops(kRows, kRows, kInner) / best;
 }

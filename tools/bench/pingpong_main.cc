@@ -17,9 +17,9 @@ int Run(const char* in, const char* count, const char* out) {
   if (std::from_chars(count, end, num_frames).ptr != end || num_frames < 1) {
     throw InputError(std::string(count) + ": expected a number of frames, at least 1");
   }
-  const BvhFile file = ReadBvh(in);
+  const io::BvhFile file = io::ReadBvh(in);
   if (file.motion.num_frames() == 0) throw InputError(std::string(in) + ": no frames");
-  WriteFile(out, FormatBvh(file, PingPong(file.motion, num_frames)), /*force=*/true);
+  io::WriteFile(out, io::FormatBvh(file, PingPong(file.motion, num_frames)), /*force=*/true);
   return 0;
 }
 

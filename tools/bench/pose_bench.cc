@@ -23,10 +23,10 @@ struct Drag {
 
 Drag DragRound(const TemplatePosture& posture, const char* backend, int figure, const char* node,
                double radius, int steps) {
-  PoseSettings settings = DefaultPoseSettings();
+  solver::PoseSettings settings = solver::DefaultPoseSettings();
   settings.settings.solve.backend = backend;
   settings.max_iterations = 12;
-  PoseTask task;
+  solver::PoseTask task;
   task.body = posture.body;
   task.before = posture.pose;
   task.holds = posture.holds;
@@ -41,7 +41,7 @@ Drag DragRound(const TemplatePosture& posture, const char* backend, int figure, 
     const double turn = 2 * kPi * k / steps;
     const Vec3 round(std::sin(turn), -0.5 * std::abs(std::sin(2 * turn)), 1 - std::cos(turn));
     task.drags = {{figure, n, at(figure, n) + radius * round}};
-    const PoseResult result = SolvePose(task, pose, settings);
+    const solver::PoseResult result = solver::SolvePose(task, pose, settings);
     pose = result.pose;
     drag.ms.push_back(1e3 * result.seconds);
     drag.error_m = std::max(drag.error_m, result.drag_error_m);
@@ -54,7 +54,7 @@ Drag DragRound(const TemplatePosture& posture, const char* backend, int figure, 
 
 int Run(int steps) {
   const TemplatePosture posture =
-      ReadTemplate(std::string(RETARGET_EXAMPLE_DIR) + "/template.yaml");
+      io::ReadTemplate(std::string(RETARGET_EXAMPLE_DIR) + "/template.yaml");
   const struct {
     int figure;
     const char* node;

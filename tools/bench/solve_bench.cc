@@ -28,7 +28,7 @@ struct Run {
   int iterations = 0, linear_solves = 0;
   double peak_bytes = 0;
   double cost = 0;
-  SolveStatus status = SolveStatus::kConverged;
+  solver::SolveStatus status = solver::SolveStatus::kConverged;
 
   double LinearMs() const { return 1e3 * solve_s / frames / linear_solves; }
   double CpuMs() const { return 1e3 * cpu_s / frames / linear_solves; }
@@ -51,9 +51,9 @@ rusage Usage() {
 Run SolveExample(int frames, bool banded) {
   Settings settings;
   settings.solve.backend = banded ? "banded" : "ceres";
-  const RetargetInput input = LoadExample(RETARGET_EXAMPLE_DIR, frames);
+  const solver::RetargetInput input = LoadExample(RETARGET_EXAMPLE_DIR, frames);
   const double cpu_before = CpuSeconds(Usage());
-  const RetargetResult result = Retarget(input, settings, {});
+  const solver::RetargetResult result = solver::Retarget(input, settings, {});
   Run run;
   run.frames = frames;
   run.banded = banded;
@@ -80,7 +80,7 @@ void PrintRun(const Run& r) {
       "{:>10.4f}{}\n",
       r.frames, r.backend(), r.start_s, r.solve_s, r.cpu_s, r.frames / r.solve_s, r.iterations,
       r.linear_solves, r.LinearMs(), r.CpuMs(), r.peak_bytes / kMegabyte, r.cost,
-      r.status == SolveStatus::kConverged ? "" : "  not converged");
+      r.status == solver::SolveStatus::kConverged ? "" : "  not converged");
 }
 
 // Growth from the 300-frame run (or else the shortest) to the longest.
@@ -126,8 +126,9 @@ struct SplitRun {
 // At the solution, where the hinges that matter are the active ones.
 SplitRun SplitExample(int frames) {
   const Settings settings;
-  const RetargetResult result = Retarget(LoadExample(RETARGET_EXAMPLE_DIR, frames), settings, {});
-  const Problem problem(result.scene, settings);
+  const solver::RetargetResult result =
+      solver::Retarget(LoadExample(RETARGET_EXAMPLE_DIR, frames), settings, {});
+  const solver::Problem problem(result.scene, settings);
   SplitRun run;
   run.split = MeasureIterationSplit(problem, result.solve.unknowns);
   run.multiply_rate = MeasureMultiplyRate();
@@ -153,14 +154,15 @@ void PrintSplit(const SplitRun& run, int frames) {
     fmt::print("  {:<23} {:.1f} Mflop = {:.4f} ms; factorisation takes {:.2f}x\n", name,
                1e-6 * flops, ms, s.factorisation_ms / ms);
   };
-  fmt::print("dense multiply ({}): {:.1f} GFLOP/s\n", KernelName(), 1e-9 * run.multiply_rate);
+  fmt::print("dense multiply ({}): {:.1f} GFLOP/s\n", solver::KernelName(),
+             1e-9 * run.multiply_rate);
   bound("flop bound, least", LeastFlops(run.n));
   bound("flop bound, dense front", DenseFlops(run.n));
 }
 
 int RunAll(std::vector<int> lengths) {
   if (lengths.empty()) lengths = {100, 300, 1000, 3000};
-  fmt::print("kernels {}, {} threads\n", KernelName(), NumThreads(0));
+  fmt::print("kernels {}, {} threads\n", solver::KernelName(), solver::NumThreads(0));
   PrintHead();
   std::vector<Run> runs;
   for (const int frames : lengths) {

@@ -34,7 +34,8 @@ struct Times {
 // What the page has: a connection that stays open, and the headers that a browser sends.
 class PageClient {
  public:
-  explicit PageClient(const StudioServer& server) : client_("127.0.0.1", PortOf(server.url())) {
+  explicit PageClient(const studio::StudioServer& server)
+      : client_("127.0.0.1", PortOf(server.url())) {
     client_.set_keep_alive(true);
     client_.set_tcp_nodelay(true);
     client_.set_read_timeout(60);
@@ -43,7 +44,7 @@ class PageClient {
                 {"Accept-Encoding", "gzip, deflate, br"}};
   }
 
-  Json Post(const std::string& path, const Json& message) {
+  report::Json Post(const std::string& path, const report::Json& message) {
     const auto started = std::chrono::steady_clock::now();
     const auto result = client_.Post(path, headers_, message.dump(), "application/json");
     const std::chrono::duration<double, std::milli> took =
@@ -56,7 +57,7 @@ class PageClient {
     server_ms = std::atof(timing.substr(timing.find("total;dur=") + 10).c_str());
     cpu_ms = std::atof(timing.substr(timing.find("cpu;dur=") + 8).c_str());
     bytes = result->body.size();
-    return Json::parse(result->body);
+    return report::Json::parse(result->body);
   }
 
   double round_trip_ms = 0, server_ms = 0, cpu_ms = 0;  // of the last message
@@ -72,12 +73,12 @@ class PageClient {
 };
 
 // The node's place in the state of a reply.
-Vec3 PlaceOf(const Json& reply, const Json& body, const std::string& figure,
+Vec3 PlaceOf(const report::Json& reply, const report::Json& body, const std::string& figure,
              const std::string& node) {
-  const Json& nodes = body[figure]["nodes"];
+  const report::Json& nodes = body[figure]["nodes"];
   for (size_t n = 0; n < nodes.size(); ++n) {
     if (nodes[n]["name"] != node) continue;
-    const Json& p = reply["state"]["figures"][figure]["nodes"][n];
+    const report::Json& p = reply["state"]["figures"][figure]["nodes"][n];
     return Vec3(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
   }
   throw std::runtime_error("no node " + node);
@@ -89,9 +90,9 @@ struct Drag {
 
 Drag DragRound(PageClient* page, const std::string& id, const std::string& figure,
                const std::string& node, int steps) {
-  const Json opened = page->Post("/api/session", Json::object());
+  const report::Json opened = page->Post("/api/session", report::Json::object());
   const std::string session = opened["session"];
-  const Json loaded = page->Post("/api/load", {{"session", session}, {"template", id}});
+  const report::Json loaded = page->Post("/api/load", {{"session", session}, {"template", id}});
   const Vec3 start = PlaceOf(loaded, loaded["body"], figure, node);
   Times server, round_trip, cpu;
   double error_m = 0;
@@ -99,13 +100,13 @@ Drag DragRound(PageClient* page, const std::string& id, const std::string& figur
     const double turn = 2 * kPi * k / steps;
     const Vec3 at = start + 0.05 * Vec3(std::sin(turn), -0.5 * std::abs(std::sin(2 * turn)),
                                         1 - std::cos(turn));
-    const Json drag = {{"op", "drag"},
-                       {"figure", figure},
-                       {"node", node},
-                       {"target", {at.x(), at.y(), at.z()}},
-                       {"gesture", 1}};
-    const Json reply =
-        page->Post("/api/do", {{"session", session}, {"live", true}, {"ops", Json::array({drag})}});
+    const report::Json drag = {{"op", "drag"},
+                               {"figure", figure},
+                               {"node", node},
+                               {"target", {at.x(), at.y(), at.z()}},
+                               {"gesture", 1}};
+    const report::Json reply = page->Post(
+        "/api/do", {{"session", session}, {"live", true}, {"ops", report::Json::array({drag})}});
     server.ms.push_back(page->server_ms);
     round_trip.ms.push_back(page->round_trip_ms);
     cpu.ms.push_back(page->cpu_ms);
@@ -121,18 +122,19 @@ Drag DragRound(PageClient* page, const std::string& id, const std::string& figur
 }
 
 int Run(int steps) {
-  StudioLibrary library((ShippedDataFolder() / "holds").string(), "");
-  StudioClips clips({}, library.ClipFolders());
-  StudioJobs jobs;
-  StudioRoutes routes({UnsavedPosture(RestPosture(1.75, 1.75, 1)), false}, &library, &clips, &jobs);
-  StudioServer server(&routes, "");
+  studio::StudioLibrary library((studio::ShippedDataFolder() / "holds").string(), "");
+  studio::StudioClips clips({}, library.ClipFolders());
+  studio::StudioJobs jobs;
+  studio::StudioRoutes routes({studio::UnsavedPosture(posing::RestPosture(1.75, 1.75, 1)), false},
+                              &library, &clips, &jobs);
+  studio::StudioServer server(&routes, "");
   server.Bind(0);
   std::thread serving([&] { server.Run(); });
   Drag worst;
   {
     PageClient page(server);
     fmt::print("{} steps each; median and 99th percentile\n", steps);
-    for (const Json& entry : library.List()) {
+    for (const report::Json& entry : library.List()) {
       for (const auto& [figure, node] :
            {std::pair("b", "head_top"), std::pair("a", "left_elbow"), std::pair("a", "head_top"),
             std::pair("b", "root"), std::pair("b", "left_hand"), std::pair("a", "right_knee")}) {

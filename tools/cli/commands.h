@@ -12,7 +12,7 @@
 #include "model/body/template_posture.h"
 #include "tools/api/options.h"
 
-namespace retarget {
+namespace retarget::cli {
 
 enum ExitCode {
   kDone = 0,
@@ -23,24 +23,24 @@ enum ExitCode {
   kInterrupted = 130
 };
 
-int RunRetarget(const RetargetOptions& options);
+int RunRetarget(const api::RetargetOptions& options);
 
 // Runs the forward simulation alone and writes baseline.glb and source.glb.
-int RunSimulate(const RetargetOptions& options);
+int RunSimulate(const api::RetargetOptions& options);
 
 int RunVerify(const std::string& folder, bool json);
 int RunCompare(const std::vector<std::string>& folders, bool json);
 int RunTangles(const std::string& path, bool json);
-int RunMap(const ClipOptions& clip, bool json, bool yaml);
+int RunMap(const io::ClipOptions& clip, bool json, bool yaml);
 // The clip with left and right exchanged.
-int RunMirror(const ClipOptions& options, const std::string& out, bool force);
+int RunMirror(const io::ClipOptions& options, const std::string& out, bool force);
 // What is in a motion or character file of any format.
-int RunInspect(const ClipOptions& clip, bool json);
+int RunInspect(const io::ClipOptions& clip, bool json);
 int RunConfig(const std::string& config_path, const std::vector<std::string>& set);
 int RunTemplateCheck(const std::string& path, bool json);
 
 struct FromClipsOptions {
-  std::array<ClipOptions, 2> clip;
+  std::array<io::ClipOptions, 2> clip;
   int frame = 0;  // of both clips, from 0
   std::string out, name;
   bool force = false;
@@ -76,7 +76,7 @@ int RunGallery(const GalleryOptions& options);
 struct StudioOptions {
   std::string template_path, photo_path;  // to begin with; empty: none
   std::string library;                    // folder; empty: the shipped one and the user's own
-  std::array<ClipOptions, 2> clip;        // to try a posture on
+  std::array<io::ClipOptions, 2> clip;    // to try a posture on
   int port = 0;                           // 0: any that is free
   bool browser = true;                    // open the page
 };
@@ -88,4 +88,4 @@ int RunRender(const std::string& path, const std::string& out, bool force);
 // Ctrl-C from here on: finish the iteration, write the best so far.
 void CatchInterrupts();
 
-}  // namespace retarget
+}  // namespace retarget::cli

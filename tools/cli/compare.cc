@@ -6,12 +6,12 @@
 #include "tools/cli/commands.h"
 #include "tools/report/metrics_table.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 struct Run {
   std::string folder;
-  Json report;
+  report::Json report;
 };
 
 // Rows of cells; the first column is left-aligned, the others as wide as they need.
@@ -37,21 +37,21 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-std::string Cell(const Json& value) {
+std::string Cell(const report::Json& value) {
   if (value.is_number_float()) return fmt::format("{:.4g} ", value.get<double>());
   if (value.is_string()) return value.get<std::string>() + " ";
   return (value.is_null() ? "-" : value.dump()) + " ";
 }
 
 // The value under a path of keys, null where there is none.
-Json At(const Json& json, const std::string& pointer) {
-  return json.value(Json::json_pointer(pointer), Json(nullptr));
+report::Json At(const report::Json& json, const std::string& pointer) {
+  return json.value(report::Json::json_pointer(pointer), report::Json(nullptr));
 }
 
 // Weighted or natural cost of a term, null where the report does not say.
-Json TermCostOf(const Run& run, const std::string& term, const char* key) {
-  for (const Json& t : run.report.at("solve").at("terms")) {
-    if (t.at("term") == term) return t.value(key, Json(nullptr));
+report::Json TermCostOf(const Run& run, const std::string& term, const char* key) {
+  for (const report::Json& t : run.report.at("solve").at("terms")) {
+    if (t.at("term") == term) return t.value(key, report::Json(nullptr));
   }
   return nullptr;
 }
@@ -59,7 +59,7 @@ Json TermCostOf(const Run& run, const std::string& term, const char* key) {
 std::vector<std::string> TermsOf(const std::vector<Run>& runs) {
   std::vector<std::string> terms;
   for (const Run& run : runs) {
-    for (const Json& t : run.report.at("solve").at("terms")) {
+    for (const report::Json& t : run.report.at("solve").at("terms")) {
       const std::string name = t.at("term");
       if (std::find(terms.begin(), terms.end(), name) == terms.end()) terms.push_back(name);
     }
@@ -69,28 +69,28 @@ std::vector<std::string> TermsOf(const std::vector<Run>& runs) {
 
 // Inputs and configuration that are not the same in all runs: {key: [value per run]}. A file of
 // the same content under another name is the same.
-Json DifferencesOf(const std::vector<Run>& runs) {
-  std::vector<Json> flat;
+report::Json DifferencesOf(const std::vector<Run>& runs) {
+  std::vector<report::Json> flat;
   for (const Run& run : runs) {
-    Json all = {{"inputs", run.report.at("inputs")},
-                {"configuration", run.report.at("configuration")}};
+    report::Json all = {{"inputs", run.report.at("inputs")},
+                        {"configuration", run.report.at("configuration")}};
     for (auto& [name, input] : all["inputs"].items()) {
       if (input.is_object()) input.erase("notes");
-      const Json& first = runs[0].report.at("inputs").value(name, Json(nullptr));
+      const report::Json& first = runs[0].report.at("inputs").value(name, report::Json(nullptr));
       if (!input.is_object() || !input.contains("hash") || !first.is_object()) continue;
-      if (input["hash"] == first.value("hash", Json(nullptr))) {
-        input["file"] = first.value("file", Json(nullptr));
+      if (input["hash"] == first.value("hash", report::Json(nullptr))) {
+        input["file"] = first.value("file", report::Json(nullptr));
       }
     }
     flat.push_back(all.flatten());
   }
-  Json out = Json::object();
-  for (const Json& keys : flat) {
+  report::Json out = report::Json::object();
+  for (const report::Json& keys : flat) {
     for (const auto& [key, unused] : keys.items()) {
-      Json values = Json::array();
-      for (const Json& f : flat) values.push_back(f.value(key, Json(nullptr)));
+      report::Json values = report::Json::array();
+      for (const report::Json& f : flat) values.push_back(f.value(key, report::Json(nullptr)));
       const bool same = std::all_of(values.begin(), values.end(),
-                                    [&](const Json& v) { return v == values.front(); });
+                                    [&](const report::Json& v) { return v == values.front(); });
       if (same) continue;
       std::string name = key.substr(key.find('/', 1) + 1);
       std::replace(name.begin(), name.end(), '/', '.');
@@ -101,7 +101,7 @@ Json DifferencesOf(const std::vector<Run>& runs) {
 }
 
 // What makes the figures of the runs hard to compare.
-std::vector<std::string> NotesOn(const Json& differences) {
+std::vector<std::string> NotesOn(const report::Json& differences) {
   const std::pair<const char*, const char*> kinds[] = {{"clip_a.hash", "clip a"},
                                                        {"clip_b.hash", "clip b"},
                                                        {"template.hash", "template"},
@@ -118,13 +118,13 @@ std::vector<std::string> NotesOn(const Json& differences) {
   return {"the runs are not of one scene; they differ in: " + what};
 }
 
-Json ComparisonJson(const std::vector<Run>& runs, const Json& differences) {
-  Json out = {{"runs", Json::array()},
-              {"baseline", At(runs[0].report, "/metrics/baseline")},
-              {"differences", differences},
-              {"notes", NotesOn(differences)}};
+report::Json ComparisonJson(const std::vector<Run>& runs, const report::Json& differences) {
+  report::Json out = {{"runs", report::Json::array()},
+                      {"baseline", At(runs[0].report, "/metrics/baseline")},
+                      {"differences", differences},
+                      {"notes", NotesOn(differences)}};
   for (const Run& run : runs) {
-    const Json& solve = run.report.at("solve");
+    const report::Json& solve = run.report.at("solve");
     out["runs"].push_back({{"folder", run.folder},
                            {"exit_code", run.report.at("exit_code")},
                            {"requirements_met", run.report.at("requirements_met")},
@@ -142,12 +142,12 @@ Json ComparisonJson(const std::vector<Run>& runs, const Json& differences) {
 // The metrics: the first run's baseline where there is one, then every run's result.
 void AddMetrics(const std::vector<Run>& runs, Table* table) {
   struct Column {
-    Json metrics;
-    const Json* requirements;
+    report::Json metrics;
+    const report::Json* requirements;
   };
   std::vector<Column> columns;
   std::vector<std::string> header = {""};
-  const Json baseline = At(runs[0].report, "/metrics/baseline");
+  const report::Json baseline = At(runs[0].report, "/metrics/baseline");
   if (!baseline.is_null()) {
     header.push_back("baseline ");
     columns.push_back({baseline, &runs[0].report.at("requirements")});
@@ -157,10 +157,11 @@ void AddMetrics(const std::vector<Run>& runs, Table* table) {
     columns.push_back({run.report.at("metrics").at("result"), &run.report.at("requirements")});
   }
   table->Add(header);
-  for (const MetricRow& row : MetricRows()) {
+  for (const report::MetricRow& row : report::MetricRows()) {
     std::vector<std::string> cells = {row.name + (row.unit.empty() ? "" : ", " + row.unit)};
     for (const Column& column : columns) {
-      cells.push_back(MetricCell(row, column.metrics, LimitOf(row, *column.requirements)));
+      cells.push_back(
+          report::MetricCell(row, column.metrics, report::LimitOf(row, *column.requirements)));
     }
     table->Add(cells);
   }
@@ -191,20 +192,20 @@ void AddSolve(const std::vector<Run>& runs, Table* table) {
   }
 }
 
-std::string ComparisonText(const std::vector<Run>& runs, const Json& differences) {
+std::string ComparisonText(const std::vector<Run>& runs, const report::Json& differences) {
   Table table;
   AddMetrics(runs, &table);
   AddSolve(runs, &table);
   std::string out;
   for (const std::string& note : NotesOn(differences)) out += "note: " + note + "\n";
   out += table.Format();
-  if (out.find('*') != std::string::npos) out += kStarNote;
+  if (out.find('*') != std::string::npos) out += report::kStarNote;
   if (runs.size() == 1) return out;
   if (differences.empty()) return out + "inputs and configuration are the same\n";
   Table differing;
   for (const auto& [key, values] : differences.items()) {
     std::vector<std::string> cells = {"  " + key};
-    for (const Json& value : values) cells.push_back(Cell(value));
+    for (const report::Json& value : values) cells.push_back(Cell(value));
     differing.Add(cells);
   }
   return out + "what differs in inputs and configuration:\n" + differing.Format();
@@ -214,21 +215,21 @@ std::string ComparisonText(const std::vector<Run>& runs, const Json& differences
 
 int RunCompare(const std::vector<std::string>& folders, bool json) {
   std::vector<Run> runs;
-  for (const std::string& folder : folders) runs.push_back({folder, ReadReport(folder)});
+  for (const std::string& folder : folders) runs.push_back({folder, report::ReadReport(folder)});
   // Each report is looked through by itself first, so that a message can name it.
   for (const Run& run : runs) {
     try {
-      const Json differences = DifferencesOf({run});
+      const report::Json differences = DifferencesOf({run});
       ComparisonJson({run}, differences);
       ComparisonText({run}, differences);
     } catch (const nlohmann::json::exception& error) {
       throw InputError(run.folder + "/report.json: not a report of this program: " + error.what());
     }
   }
-  const Json differences = DifferencesOf(runs);
+  const report::Json differences = DifferencesOf(runs);
   fmt::print("{}", json ? ComparisonJson(runs, differences).dump(1) + "\n"
                         : ComparisonText(runs, differences));
   return kDone;
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -11,7 +11,7 @@
 #include "tools/report/gallery_page.h"
 #include "tools/report/html.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,7 +22,7 @@ constexpr int kPicture = 260;  // pixels
 // A folder with template.yaml and two clips, called a and b, of any format.
 struct HoldFolder {
   std::string name, folder;
-  RetargetOptions run;
+  api::RetargetOptions run;
 };
 
 bool IsHold(const fs::path& folder) { return fs::exists(folder / "template.yaml"); }
@@ -88,7 +88,7 @@ std::vector<HoldFolder> FindHolds(const std::vector<std::string>& folders,
 std::string TextOf(const HoldFolder& hold) {
   const std::string path = hold.folder + "/README.md";
   if (!fs::exists(path)) return "";
-  std::string text = ReadFile(path);
+  std::string text = io::ReadFile(path);
   if (text.rfind("# ", 0) == 0) text.erase(0, text.find('\n'));
   return text;
 }
@@ -99,30 +99,30 @@ int RunGallery(const GalleryOptions& options) {
   const std::vector<HoldFolder> holds = FindHolds(options.holds, options);
   const std::string page = options.out + "/index.html";
   int worst = kDone;
-  std::vector<GalleryEntry> entries;
-  std::vector<std::vector<Image>> overview;
+  std::vector<report::GalleryEntry> entries;
+  std::vector<std::vector<io::Image>> overview;
   for (const HoldFolder& hold : holds) {
     fmt::print("{:<24}", hold.name);
     std::fflush(stdout);
     const int code = RunRetarget(hold.run);
     if (code == kInterrupted) return code;
     worst = std::max(worst, code);
-    GalleryEntry entry{hold.name, TextOf(hold), ReadReport(hold.run.out)};
-    const Image strip =
-        ContactSheet(hold.run.out, {{0.02, 35}, {0.5, 35}, {0.5, 215}, {0.98, 35}}, true, 300, 340);
-    WriteFile(hold.run.out + "/strip.png", EncodePng(strip), true);
+    report::GalleryEntry entry{hold.name, TextOf(hold), report::ReadReport(hold.run.out)};
+    const io::Image strip = report::ContactSheet(
+        hold.run.out, {{0.02, 35}, {0.5, 35}, {0.5, 215}, {0.98, 35}}, true, 300, 340);
+    io::WriteFile(hold.run.out + "/strip.png", io::EncodePng(strip), true);
     if (entries.size() % kOverviewColumns == 0) overview.emplace_back();
-    overview.back().push_back(
-        SolvedPicture(hold.run.out, {0.5, 35}, Words(hold.name), kPicture, kPicture));
-    fmt::print("{}\n", GalleryLine(entry.report));
+    overview.back().push_back(report::SolvedPicture(hold.run.out, {0.5, 35},
+                                                    report::Words(hold.name), kPicture, kPicture));
+    fmt::print("{}\n", report::GalleryLine(entry.report));
     entries.push_back(std::move(entry));
   }
-  OutputSet output(options.out, {"index.html", "overview.png"}, {}, true);
-  output.Add("overview.png", EncodePng(TileImages(overview)));
-  output.Add("index.html", FormatGallery(entries));
+  io::OutputSet output(options.out, {"index.html", "overview.png"}, {}, true);
+  output.Add("overview.png", io::EncodePng(io::TileImages(overview)));
+  output.Add("index.html", report::FormatGallery(entries));
   output.Commit();
   fmt::print("written to {}\n", page);
   return worst;
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

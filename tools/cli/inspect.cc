@@ -5,12 +5,12 @@
 #include "tools/cli/commands.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::cli {
 
-int RunInspect(const ClipOptions& options, bool json) {
-  std::vector<NamedFact> facts = InspectClip(options.path);
+int RunInspect(const io::ClipOptions& options, bool json) {
+  std::vector<io::NamedFact> facts = io::InspectClip(options.path);
   try {
-    const LoadedClip clip = RecogniseClip(options);
+    const io::LoadedClip clip = io::RecogniseClip(options);
     facts.push_back(
         {"human", fmt::format("yes: profile {}, stature {:.2f} m, {} up", clip.facts.map.profile,
                               clip.facts.stature, clip.facts.up)});
@@ -18,8 +18,8 @@ int RunInspect(const ClipOptions& options, bool json) {
     facts.push_back({"human", std::string("no: ") + refusal.what()});
   }
   if (json) {
-    Json out = Json::object();
-    for (const NamedFact& fact : facts) {
+    report::Json out = report::Json::object();
+    for (const io::NamedFact& fact : facts) {
       if (fact.name == "note") {
         out["notes"].push_back(fact.value);
       } else {
@@ -28,9 +28,9 @@ int RunInspect(const ClipOptions& options, bool json) {
     }
     fmt::print("{}\n", out.dump(1));
   } else {
-    for (const NamedFact& fact : facts) fmt::print("{:<20}{}\n", fact.name, fact.value);
+    for (const io::NamedFact& fact : facts) fmt::print("{:<20}{}\n", fact.name, fact.value);
   }
   return kDone;
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

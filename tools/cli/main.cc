@@ -13,30 +13,30 @@
 #include "tools/posing/words.h"
 #include "tools/studio/library.h"
 
-namespace retarget {
+namespace retarget::cli {
 
-int RunMap(const ClipOptions& options, bool json, bool yaml) {
+int RunMap(const io::ClipOptions& options, bool json, bool yaml) {
   if (yaml) {
-    fmt::print("{}", MapOfClip(options));
+    fmt::print("{}", io::MapOfClip(options));
     return kDone;
   }
-  const LoadedClip clip = RecogniseClip(options);
-  fmt::print("{}",
-             json ? MapJson(clip.facts, clip.file.motion) : MapTable(clip.facts, clip.file.motion));
+  const io::LoadedClip clip = io::RecogniseClip(options);
+  fmt::print("{}", json ? io::MapJson(clip.facts, clip.file.motion)
+                        : io::MapTable(clip.facts, clip.file.motion));
   return kDone;
 }
 
 int RunConfig(const std::string& config_path, const std::vector<std::string>& set) {
-  Settings settings = config_path.empty() ? Settings{} : ReadSettings(config_path);
-  for (const std::string& assignment : set) SetByName(&settings, assignment);
-  fmt::print("{}", FormatSettings(settings));
+  Settings settings = config_path.empty() ? Settings{} : io::ReadSettings(config_path);
+  for (const std::string& assignment : set) io::SetByName(&settings, assignment);
+  fmt::print("{}", io::FormatSettings(settings));
   return kDone;
 }
 
 namespace {
 
 // Options of one clip. The main command names them by figure, `retarget map` does not.
-void AddClipOptions(CLI::App* app, ClipOptions* clip, const std::string& figure, bool solve) {
+void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& figure, bool solve) {
   const std::string suffix = figure.empty() ? "" : "-" + figure;
   const std::string group = figure.empty() ? "Options" : "Clip " + figure;
   clip->option = figure;
@@ -69,19 +69,19 @@ void AddClipOptions(CLI::App* app, ClipOptions* clip, const std::string& figure,
 }
 
 struct CommandLine {
-  RetargetOptions retarget;
+  api::RetargetOptions retarget;
   FromClipsOptions from_clips;
   PoseCommandOptions pose;
   GalleryOptions gallery;
   StudioOptions studio;
-  ClipOptions map_clip;
+  io::ClipOptions map_clip;
   std::string folder, file, config, check, picture;
   std::vector<std::string> set, clips, folders;
   bool json = false, yaml = false, force = false;
   int code = 0;
 
   void Build(CLI::App* app) {
-    app->set_version_flag("--version", kGenerator);
+    app->set_version_flag("--version", api::kGenerator);
     app->require_subcommand(0, 1);
     AddRetarget(app);
     AddTools(app);
@@ -103,7 +103,7 @@ struct CommandLine {
 
   // The options that say which clips are to be tangled how.
   void AddScene(CLI::App* app) {
-    RetargetOptions& o = retarget;
+    api::RetargetOptions& o = retarget;
     app->add_option(
         "--clip-a", o.clip[0].path,
         "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");
@@ -158,7 +158,7 @@ struct CommandLine {
     holds->add_option("--threads", gallery.threads, "0: all cores")->check(CLI::Range(0, 256));
     holds->add_flag("--force", gallery.force, "overwrite files that no earlier run wrote");
     holds->callback([this] {
-      if (gallery.holds.empty()) gallery.holds = {(ShippedDataFolder() / "holds").string()};
+      if (gallery.holds.empty()) gallery.holds = {(studio::ShippedDataFolder() / "holds").string()};
       code = RunGallery(gallery);
     });
 
@@ -260,7 +260,7 @@ struct CommandLine {
     posing->add_flag("--force", pose.force, "overwrite the file");
     AddClipOptions(posing, &from_clips.clip[0], "a", false);
     AddClipOptions(posing, &from_clips.clip[1], "b", false);
-    for (const PoseWord& word : PoseWords()) {
+    for (const posing::PoseWord& word : posing::PoseWords()) {
       const std::string name = std::string("--") + word.name;
       CLI::Option* option = *word.value
                                 ? posing->add_option(name)->type_name(word.value)->type_size(1)
@@ -333,10 +333,11 @@ struct CommandLine {
 };
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli
 
 int main(int argc, char** argv) {
   using namespace retarget;
+  using namespace retarget::cli;
   CLI::App app(
       "Two motions, each captured alone, become one scene of two people tangled with each other.",
       "retarget");

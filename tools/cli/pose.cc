@@ -7,27 +7,28 @@
 #include "tools/posing/session.h"
 #include "tools/posing/words.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 constexpr double kReached = 0.01;  // m, of a drag
 constexpr double kStayed = 0.005;  // m, of a pin
 
 TemplatePosture StartOf(const PoseCommandOptions& options) {
-  if (!options.template_path.empty()) return ReadTemplate(options.template_path);
+  if (!options.template_path.empty()) return io::ReadTemplate(options.template_path);
   if (options.from_clips) return PostureFromClips(*options.from_clips);
-  return RestPosture(1.75, 1.75, 1);
+  return posing::RestPosture(1.75, 1.75, 1);
 }
 
 // One line on what the solver did; empty where it did all that was asked.
-std::string ShortfallOf(const PoseResult& result, const TemplatePosture& posture) {
+std::string ShortfallOf(const solver::PoseResult& result, const TemplatePosture& posture) {
   if (result.drag_error_m <= kReached && result.pin_error_m <= kStayed) return "";
   std::string line = fmt::format("{:.1f} cm from the target, pins {:.1f} mm off",
                                  100 * result.drag_error_m, 1000 * result.pin_error_m);
   if (result.blocked) {
     const auto name = [&](int k) {
       const int f = result.blocked->figure[k];
-      return fmt::format("{}/{}", kFigure[f], posture.body[f].nodes[result.blocked->node[k]].name);
+      return fmt::format("{}/{}", report::kFigure[f],
+                         posture.body[f].nodes[result.blocked->node[k]].name);
     };
     line += fmt::format("; {} would go through {}", name(0), name(1));
   } else if (result.stalled) {
@@ -39,40 +40,40 @@ std::string ShortfallOf(const PoseResult& result, const TemplatePosture& posture
 }
 
 // What the solver did in this step, where it was asked.
-std::optional<PoseResult> Do(const PoseStep& step, PoseSession* session) {
-  if (const auto* history = std::get_if<HistoryStep>(&step)) {
-    const bool undo = *history == HistoryStep::kUndo;
+std::optional<solver::PoseResult> Do(const posing::PoseStep& step, posing::PoseSession* session) {
+  if (const auto* history = std::get_if<posing::HistoryStep>(&step)) {
+    const bool undo = *history == posing::HistoryStep::kUndo;
     if (!(undo ? session->Undo() : session->Redo())) {
       throw InputError(undo ? "there is nothing to undo" : "there is nothing to redo");
     }
     return std::nullopt;
   }
-  return session->Apply(std::get<Operation>(step));
+  return session->Apply(std::get<posing::Operation>(step));
 }
 
-void PrintTable(const PoseSession& session) {
-  const Json q = QueriesJson(session.posture());
+void PrintTable(const posing::PoseSession& session) {
+  const report::Json q = posing::QueriesJson(session.posture());
   fmt::print("{}: {} literal tangles, {} overlaps\n", session.posture().name,
              q["literal_tangles"].get<int>(), q["overlaps"].size());
-  for (const Json& tag : q["tags"]) {
+  for (const report::Json& tag : q["tags"]) {
     fmt::print("tag a ({}, {}) x b ({}, {}): {:+.3f}, {:+.3f} over one half, rho {:.3f}\n",
                tag["a"][0].get<std::string>(), tag["a"][1].get<std::string>(),
                tag["b"][0].get<std::string>(), tag["b"][1].get<std::string>(),
                tag["gli"].get<double>(), tag["to_half"].get<double>(), tag["rho"].get<double>());
   }
-  for (const Json& warning : q["warnings"]) {
+  for (const report::Json& warning : q["warnings"]) {
     fmt::print("warning: {}\n", warning.get<std::string>());
   }
 }
 
 // Where the nodes are (m), by figure and name: what drags are given against.
-Json NodesJson(const TemplatePosture& posture) {
-  Json out;
-  const std::array<PosedBody, 2> posed = PosedFigures(posture);
+report::Json NodesJson(const TemplatePosture& posture) {
+  report::Json out;
+  const std::array<PosedBody, 2> posed = posing::PosedFigures(posture);
   for (int f = 0; f < 2; ++f) {
     for (int n = 0; n < posture.body[f].num_nodes(); ++n) {
       const Vec3& p = posed[f].node[n];
-      out[kFigure[f]][posture.body[f].nodes[n].name] = {p.x(), p.y(), p.z()};
+      out[report::kFigure[f]][posture.body[f].nodes[n].name] = {p.x(), p.y(), p.z()};
     }
   }
   return out;
@@ -81,14 +82,15 @@ Json NodesJson(const TemplatePosture& posture) {
 }  // namespace
 
 int RunPose(const PoseCommandOptions& options) {
-  PoseSession session(StartOf(options));
-  Json solves = Json::array();
+  posing::PoseSession session(StartOf(options));
+  report::Json solves = report::Json::array();
   bool missed = false;
   for (const PoseCommandOptions::Step& step : options.steps) {
     const std::string line =
         "--" + step.name + (step.value.empty() ? std::string() : " " + step.value);
     try {
-      const auto result = Do(ParsePoseStep(step.name, step.value, session.state()), &session);
+      const auto result =
+          Do(posing::ParsePoseStep(step.name, step.value, session.state()), &session);
       if (!result) continue;
       const std::string shortfall = ShortfallOf(*result, session.posture());
       missed = missed || !shortfall.empty();
@@ -104,7 +106,7 @@ int RunPose(const PoseCommandOptions& options) {
   }
   if (!options.out.empty()) session.Save(options.out, options.force);
   if (options.json) {
-    Json out = QueriesJson(session.posture());
+    report::Json out = posing::QueriesJson(session.posture());
     out["solves"] = solves;
     out["nodes"] = NodesJson(session.posture());
     fmt::print("{}\n", out.dump(1));
@@ -115,4 +117,4 @@ int RunPose(const PoseCommandOptions& options) {
   return missed ? kMissed : kDone;
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -8,20 +8,20 @@
 #include "tools/cli/commands.h"
 #include "tools/report/contact_sheet.h"
 
-namespace retarget {
+namespace retarget::cli {
 
 int RunRender(const std::string& path, const std::string& out, bool force) {
   if (!std::filesystem::is_directory(path)) {
-    WriteFile(out, EncodePng(TemplateSheet(ReadTemplate(path))), force);
+    io::WriteFile(out, io::EncodePng(report::TemplateSheet(io::ReadTemplate(path))), force);
     fmt::print("written to {}\n", out);
     return kDone;
   }
   constexpr int kColumns = 4;
-  std::vector<SheetInstant> instants;
+  std::vector<report::SheetInstant> instants;
   for (int k = 0; k < kColumns; ++k) instants.push_back({(2.0 * k + 1) / (2.0 * kColumns)});
-  WriteFile(out, EncodePng(ContactSheet(path, instants, false)), force);
+  io::WriteFile(out, io::EncodePng(report::ContactSheet(path, instants, false)), force);
   fmt::print("written to {}\n", out);
   return kDone;
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -7,44 +7,49 @@
 #include "tools/cli/commands.h"
 #include "tools/report/metrics_table.h"
 
-namespace retarget {
+namespace retarget::cli {
 
-int RunSimulate(const RetargetOptions& options) {
-  const Settings settings = EffectiveSettings(options);
-  const Job job = LoadJob(options);
-  OutputSet output(options.out, {"source.glb", "baseline.glb"}, InputPaths(options), options.force);
-  TellNotes(job);
-  const RetargetResult prepared = Prepare(job.input, settings);
+int RunSimulate(const api::RetargetOptions& options) {
+  const Settings settings = api::EffectiveSettings(options);
+  const api::Job job = api::LoadJob(options);
+  io::OutputSet output(options.out, {"source.glb", "baseline.glb"}, api::InputPaths(options),
+                       options.force);
+  api::TellNotes(job);
+  const solver::RetargetResult prepared = solver::Prepare(job.input, settings);
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "warning: {}\n", warning);
-  const Scene& scene = prepared.scene;
-  const SimulationResult simulation = Simulate(scene, settings.simulation);
+  const solver::Scene& scene = prepared.scene;
+  const solver::SimulationResult simulation = solver::Simulate(scene, settings.simulation);
 
-  const MeasureSubject subject = SubjectOf(scene);
-  MeasuredScene source(SceneBytes(scene, scene.source), "source.glb", subject.body);
-  MeasuredScene baseline(SceneBytes(scene, simulation.motion), "baseline.glb", subject.body);
-  for (MeasuredScene* motion : {&source, &baseline}) motion->Measure(subject, source);
-  const Metrics& metrics = baseline.metrics();
+  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  report::MeasuredScene source(api::SceneBytes(scene, scene.source), "source.glb", subject.body);
+  report::MeasuredScene baseline(api::SceneBytes(scene, simulation.motion), "baseline.glb",
+                                 subject.body);
+  for (report::MeasuredScene* motion : {&source, &baseline}) motion->Measure(subject, source);
+  const solver::Metrics& metrics = baseline.metrics();
   output.Add("source.glb", source.bytes());
   output.Add("baseline.glb", baseline.bytes());
   output.Commit();
 
-  const std::vector<RequirementCheck> checks =
-      CheckRequirements(subject, metrics, settings.requirements);
+  const std::vector<solver::RequirementCheck> checks =
+      solver::CheckRequirements(subject, metrics, settings.requirements);
   if (options.json) {
-    const Json report = {{"simulation", SimulationJson(simulation)},
-                         {"metrics",
-                          {{"source", MetricsJson(subject, source.metrics())},
-                           {"baseline", MetricsJson(subject, metrics)}}},
-                         {"requirements", ChecksJson(checks)}};
+    const report::Json report = {{"simulation", report::SimulationJson(simulation)},
+                                 {"metrics",
+                                  {{"source", report::MetricsJson(subject, source.metrics())},
+                                   {"baseline", report::MetricsJson(subject, metrics)}}},
+                                 {"requirements", report::ChecksJson(checks)}};
     fmt::print("{}\n", report.dump(1));
   } else {
-    fmt::print("{}", MetricsTable(subject, source.metrics(), nullptr, metrics, checks, "baseline"));
+    fmt::print("{}", report::MetricsTable(subject, source.metrics(), nullptr, metrics, checks,
+                                          "baseline"));
     fmt::print("{}: {}\n{}; simulated {:.1f} s in {:.2f} s ({:.1f}x real time); written to {}\n",
-               NameOf(simulation.status), simulation.message, SettleSentence(simulation),
-               simulation.simulated, simulation.seconds, simulation.simulated / simulation.seconds,
-               options.out);
+               solver::NameOf(simulation.status), simulation.message,
+               report::SettleSentence(simulation), simulation.simulated, simulation.seconds,
+               simulation.simulated / simulation.seconds, options.out);
   }
-  return simulation.status == SimulationStatus::kCompleted && AllMet(checks) ? kDone : kMissed;
+  return simulation.status == solver::SimulationStatus::kCompleted && solver::AllMet(checks)
+             ? kDone
+             : kMissed;
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -15,18 +15,18 @@
 #include "tools/studio/jobs.h"
 #include "tools/studio/server.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
-StudioStart StartOf(const StudioOptions& options, StudioLibrary* library) {
-  StudioStart start;
+studio::StudioStart StartOf(const StudioOptions& options, studio::StudioLibrary* library) {
+  studio::StudioStart start;
   start.has_template = !options.template_path.empty();
-  start.posture = start.has_template ? PostureOfLibrary(library, library->named_id())
-                                     : UnsavedPosture(RestPosture(1.75, 1.75, 1));
+  start.posture = start.has_template ? studio::PostureOfLibrary(library, library->named_id())
+                                     : studio::UnsavedPosture(posing::RestPosture(1.75, 1.75, 1));
   if (options.photo_path.empty()) return start;
-  start.posture.photo = ReadFile(options.photo_path);
-  const auto kind = ImageKindOf(start.posture.photo);
-  if (!kind || start.posture.photo.size() > kMostBytes) {
+  start.posture.photo = io::ReadFile(options.photo_path);
+  const auto kind = studio::ImageKindOf(start.posture.photo);
+  if (!kind || start.posture.photo.size() > studio::kMostBytes) {
     throw InputError(options.photo_path + ": expected a PNG, JPEG or WebP picture under 16 MB");
   }
   TemplatePhoto photo;
@@ -36,7 +36,7 @@ StudioStart StartOf(const StudioOptions& options, StudioLibrary* library) {
 }
 
 std::string Page() {
-  const std::string_view page = EmbeddedStudioPage();
+  const std::string_view page = report::EmbeddedStudioPage();
   if (!page.empty()) return std::string(page);
   return "<!doctype html><title>retarget studio</title>"
          "<p>This program was built without the studio's page (RETARGET_STUDIO=OFF).\n";
@@ -52,16 +52,16 @@ int RunStudio(const StudioOptions& options) {
   pthread_sigmask(SIG_BLOCK, &ends, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
 
-  StudioLibrary library(options.library, options.template_path);
-  StudioClips clips(options.clip, library.ClipFolders());
-  StudioJobs jobs;
-  StudioRoutes routes(StartOf(options, &library), &library, &clips, &jobs);
-  StudioServer server(&routes, Page());
+  studio::StudioLibrary library(options.library, options.template_path);
+  studio::StudioClips clips(options.clip, library.ClipFolders());
+  studio::StudioJobs jobs;
+  studio::StudioRoutes routes(StartOf(options, &library), &library, &clips, &jobs);
+  studio::StudioServer server(&routes, Page());
   server.Bind(options.port);
   std::thread serving([&] { server.Run(); });
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  if (options.browser && !Launch({"xdg-open", server.url()})) {
+  if (options.browser && !studio::Launch({"xdg-open", server.url()})) {
     fmt::print(stderr, "open this address in a browser\n");
   }
   int signal = 0;
@@ -74,4 +74,4 @@ int RunStudio(const StudioOptions& options) {
   std::_Exit(kDone);
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -15,12 +15,12 @@
 #include "tools/cli/commands.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 // Node positions as JSON, {"A": [[x, y, z] x 21], "B": ...}.
-std::array<std::vector<Vec3>, 2> PositionsFromJson(const Json& json, const std::string& path,
-                                                   size_t nodes) {
+std::array<std::vector<Vec3>, 2> PositionsFromJson(const report::Json& json,
+                                                   const std::string& path, size_t nodes) {
   std::array<std::vector<Vec3>, 2> out;
   for (int f = 0; f < 2; ++f) {
     const char* key = f == 0 ? "A" : "B";
@@ -29,14 +29,14 @@ std::array<std::vector<Vec3>, 2> PositionsFromJson(const Json& json, const std::
           fmt::format("{}: expected {{\"A\": [[x, y, z] x {}], \"B\": ...}}, found no \"{}\"", path,
                       nodes, key));
     }
-    const Json& list = json.at(key);
+    const report::Json& list = json.at(key);
     if (!list.is_array() || list.size() != nodes) {
       throw InputError(fmt::format("{}: \"{}\": expected {} node positions", path, key, nodes));
     }
-    for (const Json& p : list) {
+    for (const report::Json& p : list) {
       const bool good =
           p.is_array() && p.size() == 3 &&
-          std::all_of(p.begin(), p.end(), [](const Json& x) { return x.is_number(); });
+          std::all_of(p.begin(), p.end(), [](const report::Json& x) { return x.is_number(); });
       if (!good)
         throw InputError(fmt::format("{}: \"{}\": expected positions [x, y, z]", path, key));
       out[f].emplace_back(p[0], p[1], p[2]);
@@ -49,22 +49,22 @@ std::array<std::vector<Vec3>, 2> PositionsFromJson(const Json& json, const std::
 
 struct Found {
   std::array<Body, 2> body;
-  TemplateTangles tangles;
+  solver::TemplateTangles tangles;
 };
 
 Found FindIn(const std::string& path) {
-  const std::string text = ReadFile(path);
+  const std::string text = io::ReadFile(path);
   const size_t first = text.find_first_not_of(" \t\r\n");
   Found found;
   if (first == std::string::npos || text[first] != '{') {
-    const TemplatePosture posture = ParseTemplate(text, path);
+    const TemplatePosture posture = io::ParseTemplate(text, path);
     found.body = posture.body;
-    found.tangles = FindTemplateTangles(posture, {});
+    found.tangles = solver::FindTemplateTangles(posture, {});
     return found;
   }
-  Json json;
+  report::Json json;
   try {
-    json = Json::parse(text);
+    json = report::Json::parse(text);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path + ": " + error.what());
   }
@@ -84,10 +84,11 @@ int RunTangles(const std::string& path, bool json) {
   const Found found = FindIn(path);
   const Body &a = found.body[0], &b = found.body[1];
   if (json) {
-    Json out = {{"literal", Json::array()}, {"tags", Json::array()}};
-    for (const Tangle& t : found.tangles.literal) out["literal"].push_back(TangleJson(a, b, t));
+    report::Json out = {{"literal", report::Json::array()}, {"tags", report::Json::array()}};
+    for (const Tangle& t : found.tangles.literal)
+      out["literal"].push_back(api::TangleJson(a, b, t));
     for (const Tag& tag : found.tangles.tags) {
-      Json entry = TangleJson(a, b, tag.tangle);
+      report::Json entry = api::TangleJson(a, b, tag.tangle);
       entry["rho"] = tag.rho;
       entry["group_size"] = tag.group_size;
       out["tags"].push_back(entry);
@@ -97,33 +98,33 @@ int RunTangles(const std::string& path, bool json) {
   }
   fmt::print("{} literal tangles (Algorithm 1)\n", found.tangles.literal.size());
   for (const Tangle& t : found.tangles.literal) {
-    fmt::print("  {:<64} {:+.4f}\n", TangleLine(a, b, t), t.gli);
+    fmt::print("  {:<64} {:+.4f}\n", api::TangleLine(a, b, t), t.gli);
   }
   fmt::print("{} tags\n", found.tangles.tags.size());
   for (const Tag& tag : found.tangles.tags) {
-    fmt::print("  {:<64} {:+.4f}  rho {:.3f}  stands for {}\n", TangleLine(a, b, tag.tangle),
+    fmt::print("  {:<64} {:+.4f}  rho {:.3f}  stands for {}\n", api::TangleLine(a, b, tag.tangle),
                tag.tangle.gli, tag.rho, tag.group_size);
   }
   return kDone;
 }
 
 int RunTemplateCheck(const std::string& path, bool json) {
-  const TemplatePosture posture = ReadTemplate(path);
-  const TemplateCheck check = CheckTemplate(posture);
-  const TemplateTangles& tangles = check.tangles;
-  const Metrics& metrics = check.metrics;
-  const std::vector<RequirementCheck>& checks = check.checks;
+  const TemplatePosture posture = io::ReadTemplate(path);
+  const api::TemplateCheck check = api::CheckTemplate(posture);
+  const solver::TemplateTangles& tangles = check.tangles;
+  const solver::Metrics& metrics = check.metrics;
+  const std::vector<solver::RequirementCheck>& checks = check.checks;
   const std::vector<std::string>& warnings = check.warnings;
   const std::array<Body, 2>& bodies = posture.body;
   const bool met = check.met();
   if (json) {
-    Json out = {{"name", posture.name},
-                {"requirements_met", met},
-                {"requirements", ChecksJson(checks)},
-                {"tags", Json::array()},
-                {"warnings", warnings}};
+    report::Json out = {{"name", posture.name},
+                        {"requirements_met", met},
+                        {"requirements", report::ChecksJson(checks)},
+                        {"tags", report::Json::array()},
+                        {"warnings", warnings}};
     for (const Tag& tag : tangles.tags) {
-      out["tags"].push_back(TangleJson(bodies[0], bodies[1], tag.tangle));
+      out["tags"].push_back(api::TangleJson(bodies[0], bodies[1], tag.tangle));
       out["tags"].back()["rho"] = tag.rho;
     }
     fmt::print("{}\n", out.dump(1));
@@ -139,7 +140,7 @@ int RunTemplateCheck(const std::string& path, bool json) {
         100 * metrics.figure[f].floor_m, 100 * metrics.figure[f].self_penetration_m);
   }
   for (const Tag& tag : tangles.tags) {
-    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n", TangleLine(bodies[0], bodies[1], tag.tangle),
+    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n", api::TangleLine(bodies[0], bodies[1], tag.tangle),
                tag.tangle.gli, tag.rho);
   }
   for (size_t k = 0; k < metrics.hold_m.size(); ++k) {
@@ -147,7 +148,7 @@ int RunTemplateCheck(const std::string& path, bool json) {
   }
   fmt::print("penetration: {:.1f} cm\n", 100 * metrics.penetration_m);
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
-  for (const RequirementCheck& c : checks) {
+  for (const solver::RequirementCheck& c : checks) {
     if (!c.met)
       fmt::print("MISSED {}: {:.4g} {}, required {:.4g} {}\n", c.name, c.value, c.unit, c.limit,
                  c.where);
@@ -156,10 +157,10 @@ int RunTemplateCheck(const std::string& path, bool json) {
 }
 
 TemplatePosture PostureFromClips(const FromClipsOptions& options) {
-  const LoadedClip a = LoadClip(options.clip[0]), b = LoadClip(options.clip[1]);
+  const io::LoadedClip a = io::LoadClip(options.clip[0]), b = io::LoadClip(options.clip[1]);
   TemplatePosture posture;
   try {
-    posture = PostureOfFrames({&a, &b}, {options.frame, options.frame}, true);
+    posture = api::PostureOfFrames({&a, &b}, {options.frame, options.frame}, true);
   } catch (const InputError& error) {
     throw InputError(std::string("--") + error.what());
   }
@@ -171,11 +172,11 @@ TemplatePosture PostureFromClips(const FromClipsOptions& options) {
 
 int RunTemplateFromClips(const FromClipsOptions& options) {
   const TemplatePosture posture = PostureFromClips(options);
-  const std::string text = FormatTemplate(posture);
-  ParseTemplate(text, options.out);  // what is written can be read
-  WriteFile(options.out, text, options.force);
+  const std::string text = io::FormatTemplate(posture);
+  io::ParseTemplate(text, options.out);  // what is written can be read
+  io::WriteFile(options.out, text, options.force);
   fmt::print("written to {}\n", options.out);
   return kDone;
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -11,21 +11,21 @@
 #include "tools/cli/commands.h"
 #include "tools/report/metrics_table.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
-RequirementCheck CheckWriteBack(const Json& written, const std::string& folder, int f,
-                                const MotionView& scene, const Body& body) {
+solver::RequirementCheck CheckWriteBack(const report::Json& written, const std::string& folder,
+                                        int f, const solver::MotionView& scene, const Body& body) {
   const std::string file = written.at("file");
-  ClipPath path;
+  io::ClipPath path;
   path.path = folder + "/" + file;
   if (written.contains("skeleton")) {
     path.skeleton = folder + "/" + written.at("skeleton").get<std::string>();
   }
   path.select.animation = written.value("animation", "");
   path.select.skin = written.value("skin", "");
-  const RigMotion motion = ReadClipFile(path, written.value("fps", kAcclaimFps)).motion;
-  std::vector<NodeJoint> joints;
+  const RigMotion motion = io::ReadClipFile(path, written.value("fps", io::kAcclaimFps)).motion;
+  std::vector<report::NodeJoint> joints;
   for (const auto& [node, bone] : written.at("joints").items()) {
     const int joint = motion.rig.Find(bone.get<std::string>());
     if (joint < 0)
@@ -34,16 +34,16 @@ RequirementCheck CheckWriteBack(const Json& written, const std::string& folder, 
   }
   const std::string up = written.at("up");
   const double error =
-      WriteBackError(motion, motion.rig, written.at("units"), up[0], joints, scene, f);
+      report::WriteBackError(motion, motion.rig, written.at("units"), up[0], joints, scene, f);
   return {std::string("write-back ") + (f == 0 ? "a" : "b"),
           error,
-          kWriteBackLimit,
+          report::kWriteBackLimit,
           "m",
-          error <= kWriteBackLimit,
+          error <= report::kWriteBackLimit,
           file};
 }
 
-void CheckFrames(const MeasuredScene& scene, const std::string& path, int frames) {
+void CheckFrames(const report::MeasuredScene& scene, const std::string& path, int frames) {
   if (scene.view().num_frames == frames) return;
   throw InputError(
       fmt::format("{}: has {} frames, scene.glb {}", path, scene.view().num_frames, frames));
@@ -53,16 +53,19 @@ void CheckFrames(const MeasuredScene& scene, const std::string& path, int frames
 
 int RunVerify(const std::string& folder, bool json) {
   const std::string report_path = folder + "/report.json";
-  const Json report = ReadReport(folder);
-  const MeasureSubject subject = SubjectFromJson(report, report_path);
-  const Settings settings = ReadSettings(folder + "/config.yaml");
-  MeasuredScene scene(ReadFile(folder + "/scene.glb"), folder + "/scene.glb", subject.body);
+  const report::Json report = report::ReadReport(folder);
+  const solver::MeasureSubject subject = report::SubjectFromJson(report, report_path);
+  const Settings settings = io::ReadSettings(folder + "/config.yaml");
+  report::MeasuredScene scene(io::ReadFile(folder + "/scene.glb"), folder + "/scene.glb",
+                              subject.body);
   const int frames = scene.view().num_frames;
-  MeasuredScene source(ReadFile(folder + "/source.glb"), folder + "/source.glb", subject.body);
+  report::MeasuredScene source(io::ReadFile(folder + "/source.glb"), folder + "/source.glb",
+                               subject.body);
   CheckFrames(source, folder + "/source.glb", frames);
-  std::optional<MeasuredScene> baseline;
+  std::optional<report::MeasuredScene> baseline;
   if (std::filesystem::exists(folder + "/baseline.glb")) {
-    baseline.emplace(ReadFile(folder + "/baseline.glb"), folder + "/baseline.glb", subject.body);
+    baseline.emplace(io::ReadFile(folder + "/baseline.glb"), folder + "/baseline.glb",
+                     subject.body);
     CheckFrames(*baseline, folder + "/baseline.glb", frames);
   }
   for (int f = 0; f < 2; ++f) {
@@ -75,10 +78,11 @@ int RunVerify(const std::string& folder, bool json) {
   source.Measure(subject, source);
   scene.Measure(subject, source);
   if (baseline) baseline->Measure(subject, source);
-  const Metrics& metrics = scene.metrics();
-  std::vector<RequirementCheck> checks = CheckRequirements(subject, metrics, settings.requirements);
+  const solver::Metrics& metrics = scene.metrics();
+  std::vector<solver::RequirementCheck> checks =
+      solver::CheckRequirements(subject, metrics, settings.requirements);
   for (int f = 0; f < 2; ++f) {
-    const char* figure = kFigure[f];
+    const char* figure = report::kFigure[f];
     try {
       checks.push_back(CheckWriteBack(report.at("write_back").at(figure), folder, f, scene.view(),
                                       subject.body[f]));
@@ -89,19 +93,20 @@ int RunVerify(const std::string& folder, bool json) {
     checks.push_back(
         {std::string("segment lengths ") + figure, length, 0.5, "%", length <= 0.5, ""});
   }
-  const bool all_met = AllMet(checks);
-  const Metrics* baseline_metrics = baseline ? &baseline->metrics() : nullptr;
+  const bool all_met = solver::AllMet(checks);
+  const solver::Metrics* baseline_metrics = baseline ? &baseline->metrics() : nullptr;
   if (json) {
-    const Json out = {
-        {"requirements_met", all_met},
-        {"requirements", ChecksJson(checks)},
-        {"metrics", ThreeMetricsJson(subject, source.metrics(), baseline_metrics, metrics)}};
+    const report::Json out = {{"requirements_met", all_met},
+                              {"requirements", report::ChecksJson(checks)},
+                              {"metrics", report::ThreeMetricsJson(subject, source.metrics(),
+                                                                   baseline_metrics, metrics)}};
     fmt::print("{}\n", out.dump(1));
   } else {
-    fmt::print("{}", MetricsTable(subject, source.metrics(), baseline_metrics, metrics, checks));
+    fmt::print("{}",
+               report::MetricsTable(subject, source.metrics(), baseline_metrics, metrics, checks));
     fmt::print("{}\n", all_met ? "every requirement is met" : "a requirement is MISSED, see above");
   }
   return all_met ? kDone : kMissed;
 }
 
-}  // namespace retarget
+}  // namespace retarget::cli

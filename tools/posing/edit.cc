@@ -10,7 +10,7 @@
 #include "tools/posing/mirror.h"
 #include "tools/posing/say.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 // Bounds of the template file (io/template_file.h).
 constexpr double kFurthest = 1000;                       // m
@@ -217,4 +217,4 @@ PoseState Edited(const PoseState& state, const Operation& operation) {
   return edit.Take();
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -3,7 +3,7 @@
 
 #include "tools/posing/state.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 // The state after an operation; pins go with nodes that are moved by hand. Throws InputError where
 // a figure, node, link, hold or value is not valid. Not for Drag, DragRay and Settle.
@@ -15,4 +15,4 @@ void CheckNode(const TemplatePosture& posture, int figure, int node);
 void CheckPlace(const Vec3& place, const char* what);
 void CheckDirection(const Vec3& direction);
 
-}  // namespace retarget
+}  // namespace retarget::posing

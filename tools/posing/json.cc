@@ -6,7 +6,7 @@
 #include "io/template_keys.h"
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::posing {
 namespace {
 
 constexpr size_t kLongestName = 200, kLongestText = 20000;  // bytes
@@ -15,32 +15,32 @@ constexpr size_t kMostWords = 100, kMostTangles = 50;
 // The fields of one operation, with the names of the posture's bodies.
 class Read {
  public:
-  Read(const Fields& fields, const TemplatePosture& posture) : op(fields), posture_(posture) {}
+  Read(const io::Fields& fields, const TemplatePosture& posture) : op(fields), posture_(posture) {}
 
-  const Fields& op;
+  const io::Fields& op;
 
   int Figure(const char* key = "figure") const { return op.Named(key, {"a", "b"}); }
-  int Node(int figure) const { return op.Named("node", NodeNames(posture_.body[figure])); }
+  int Node(int figure) const { return op.Named("node", io::NodeNames(posture_.body[figure])); }
   std::vector<int> Nodes(int figure) const {
-    return op.NamedList("nodes", NodeNames(posture_.body[figure]), 100);
+    return op.NamedList("nodes", io::NodeNames(posture_.body[figure]), 100);
   }
-  int Link(int figure) const { return op.Named("joint", LinkNames(posture_.body[figure])); }
+  int Link(int figure) const { return op.Named("joint", io::LinkNames(posture_.body[figure])); }
   int Gesture() const { return op.Integer("gesture", 0, std::numeric_limits<int>::max(), 0); }
   Quat Degrees(const char* key) const { return ExpSo3(kDegree * op.Vector(key)); }
 
   HoldRequest Hold() const {
     HoldRequest hold;
-    const Fields from = op.Object("from"), to = op.Object("to");
+    const io::Fields from = op.Object("from"), to = op.Object("to");
     from.Only({"figure", "node", "offset"});
     const int figure = from.Named("figure", {"a", "b"});
-    hold.from = {figure, from.Named("node", NodeNames(posture_.body[figure])), Vec3::Zero()};
+    hold.from = {figure, from.Named("node", io::NodeNames(posture_.body[figure])), Vec3::Zero()};
     if (from.Has("offset")) hold.from.offset = from.Vector("offset");
-    hold.to_figure = to.Named("figure", FigureNames());
+    hold.to_figure = to.Named("figure", io::FigureNames());
     if (hold.to_figure == kWorld) {
       to.Only({"figure", "offset"});
     } else {
       to.Only({"figure", "node", "offset"});
-      hold.to_node = to.Named("node", NodeNames(posture_.body[hold.to_figure]));
+      hold.to_node = to.Named("node", io::NodeNames(posture_.body[hold.to_figure]));
     }
     if (to.Has("offset")) hold.to_offset = to.Vector("offset");
     hold.rotation = op.Bool("rotation", false);
@@ -48,9 +48,9 @@ class Read {
   }
 
   // Two nodes of a figure, in any order.
-  Path PathOf(const Fields& tangle, int figure) const {
+  Path PathOf(const io::Fields& tangle, int figure) const {
     const char* key = figure == 0 ? "a" : "b";
-    const std::vector<int> ends = tangle.NamedList(key, NodeNames(posture_.body[figure]), 2);
+    const std::vector<int> ends = tangle.NamedList(key, io::NodeNames(posture_.body[figure]), 2);
     if (ends.size() != 2 || ends[0] == ends[1]) tangle.Refuse(key, "two different nodes");
     return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
   }
@@ -63,7 +63,7 @@ PoseStep ReadPin(const Read& r) {
   Pin pin{r.Figure(), 0, std::nullopt};
   pin.node = r.Node(pin.figure);
   if (r.op.Has("ray")) {
-    const Fields ray = r.op.Object("ray");
+    const io::Fields ray = r.op.Object("ray");
     ray.Only({"origin", "direction"});
     pin.ray = PinRay{ray.Vector("origin"), ray.Vector("direction")};
   }
@@ -78,7 +78,7 @@ PoseStep ReadRoot(const Read& r) {
 
 PoseStep ReadTangles(const Read& r) {
   SetTangles tangles;
-  for (const Fields& item : r.op.ObjectList("tangles", kMostTangles)) {
+  for (const io::Fields& item : r.op.ObjectList("tangles", kMostTangles)) {
     item.Only({"a", "b", "from", "to"});
     TangleRequest request{r.PathOf(item, 0), r.PathOf(item, 1), std::nullopt, std::nullopt};
     if (item.Has("from")) request.from_s = item.Number("from", 0, 1e6);
@@ -90,13 +90,13 @@ PoseStep ReadTangles(const Read& r) {
 
 PoseStep ReadPhoto(const Read& r) {
   if (r.op.Require("photo").is_null()) return SetPhoto{};
-  const Fields fields = r.op.Object("photo");
+  const io::Fields fields = r.op.Object("photo");
   fields.Only({"file", "opacity", "scale", "offset"});
   TemplatePhoto photo;
   photo.file = fields.Text("file", kLongestName);
   photo.opacity = fields.Number("opacity", 0, 1, photo.opacity);
   photo.scale = fields.Number("scale", 1e-4, 1e4, photo.scale);
-  if (const Message* offset = fields.Find("offset")) {
+  if (const io::Message* offset = fields.Find("offset")) {
     const bool pair = offset->is_array() && offset->size() == 2 && (*offset)[0].is_number() &&
                       (*offset)[1].is_number();
     if (!pair) fields.Refuse("offset", "2 numbers");
@@ -107,7 +107,7 @@ PoseStep ReadPhoto(const Read& r) {
 
 PoseStep ReadCamera(const Read& r) {
   if (r.op.Require("camera").is_null()) return SetCamera{};
-  const Fields fields = r.op.Object("camera");
+  const io::Fields fields = r.op.Object("camera");
   fields.Only({"eye", "target", "fov_deg"});
   TemplateCamera camera;
   camera.eye = fields.Vector("eye");
@@ -271,7 +271,7 @@ const std::vector<std::string>& Names() {
 
 }  // namespace
 
-PoseStep ParsePoseJson(const Fields& op, const TemplatePosture& posture) {
+PoseStep ParsePoseJson(const io::Fields& op, const TemplatePosture& posture) {
   const Entry& entry = Entries()[static_cast<size_t>(op.Named("op", Names()))];
   std::vector<std::string> fields = entry.fields;
   fields.push_back("op");
@@ -279,4 +279,4 @@ PoseStep ParsePoseJson(const Fields& op, const TemplatePosture& posture) {
   return entry.read(Read(op, posture));
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -6,9 +6,9 @@
 #include "model/body/template_posture.h"
 #include "tools/posing/operations.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 // Throws InputError: `ops[0].node: unknown name "left_hnad", did you mean "left_hand"?`.
-PoseStep ParsePoseJson(const Fields& op, const TemplatePosture& posture);
+PoseStep ParsePoseJson(const io::Fields& op, const TemplatePosture& posture);
 
-}  // namespace retarget
+}  // namespace retarget::posing

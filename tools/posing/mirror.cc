@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-namespace retarget {
+namespace retarget::posing {
 namespace {
 
 std::string OtherSide(const std::string& name) {
@@ -146,4 +146,4 @@ PoseState WithSideCopied(const PoseState& state, int figure, bool from_left) {
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

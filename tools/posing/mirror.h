@@ -3,7 +3,7 @@
 
 #include "tools/posing/state.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 // Through the world's plane x = 0: every GLI changes its sign. Photo and camera stay.
 PoseState MirroredScene(const PoseState& state);
@@ -15,4 +15,4 @@ PoseState Swapped(const PoseState& state);
 // One side's joints mirrored onto the other.
 PoseState WithSideCopied(const PoseState& state, int figure, bool from_left);
 
-}  // namespace retarget
+}  // namespace retarget::posing

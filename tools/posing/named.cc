@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace retarget {
+namespace retarget::posing {
 namespace {
 
 // In the order of Operation.
@@ -65,4 +65,4 @@ std::string Named(const Operation& operation, const TemplatePosture& posture) {
   return kVerbs[operation.index()] + (place.empty() ? "" : " of " + place);
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

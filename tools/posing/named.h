@@ -5,9 +5,9 @@
 
 #include "tools/posing/operations.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 // "drag of a/left_hand". Indices that are not valid are left out.
 std::string Named(const Operation& operation, const TemplatePosture& posture);
 
-}  // namespace retarget
+}  // namespace retarget::posing

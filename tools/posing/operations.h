@@ -9,7 +9,7 @@
 
 #include "model/body/template_posture.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 inline constexpr int kBoth = -1;  // both figures
 
@@ -157,4 +157,4 @@ using Operation =
 enum class HistoryStep { kUndo, kRedo };
 using PoseStep = std::variant<Operation, HistoryStep>;
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -13,14 +13,14 @@
 #include "tools/api/template_check.h"
 #include "tools/posing/state.h"
 
-namespace retarget {
+namespace retarget::posing {
 namespace {
 
 constexpr double kDeep = 0.01;           // m: overlaps worth a warning
 constexpr double kBeyond = 1 * kDegree;  // of a joint's limit, the same
 
 void AddOverlap(const TemplatePosture& posture, const std::array<PosedBody, 2>& posed,
-                const LimbPair& limbs, std::vector<LimbOverlap>* overlaps) {
+                const solver::LimbPair& limbs, std::vector<LimbOverlap>* overlaps) {
   std::array<Vec3, 2> start, end;
   std::array<double, 2> radius;
   for (int k = 0; k < 2; ++k) {
@@ -38,8 +38,8 @@ void AddOverlap(const TemplatePosture& posture, const std::array<PosedBody, 2>& 
   overlaps->push_back({limbs, depth, p - (radius[0] - 0.5 * depth) * closest.normal});
 }
 
-std::string LimbName(const TemplatePosture& posture, const LimbPair& limbs, int k) {
-  return fmt::format("{}/{}", kFigure[limbs.figure[k]],
+std::string LimbName(const TemplatePosture& posture, const solver::LimbPair& limbs, int k) {
+  return fmt::format("{}/{}", report::kFigure[limbs.figure[k]],
                      posture.body[limbs.figure[k]].nodes[limbs.node[k]].name);
 }
 
@@ -64,29 +64,30 @@ std::vector<Tag> AllTags(const TemplatePosture& posture, const std::vector<Tag>&
   TemplatePosture unlisted = posture;
   unlisted.tangles.clear();
   std::vector<Tag> all = kept;
-  for (const Tag& tag : FindTemplateTangles(unlisted, Settings().tangle).tags) {
+  for (const Tag& tag : solver::FindTemplateTangles(unlisted, Settings().tangle).tags) {
     if (!IsRequested(posture, tag)) all.push_back(tag);
   }
   return all;
 }
 
-Json TagsJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
-  Json out = Json::array();
+report::Json TagsJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
+  report::Json out = report::Json::array();
   for (const Tag& tag : tags) {
-    Json entry = TangleJson(posture.body[0], posture.body[1], tag.tangle);
+    report::Json entry = api::TangleJson(posture.body[0], posture.body[1], tag.tangle);
     entry["to_half"] = std::abs(tag.tangle.gli) - kTangleThreshold;
     entry["rho"] = tag.rho;
     entry["group_size"] = tag.group_size;
     entry["requested"] = IsRequested(posture, tag);
-    entry["weak"] = std::abs(tag.tangle.gli) < kWeakGli;
-    entry["can_slip"] = tag.rho < kEasilyLost;
+    entry["weak"] = std::abs(tag.tangle.gli) < api::kWeakGli;
+    entry["can_slip"] = tag.rho < api::kEasilyLost;
     out.push_back(entry);
   }
   return out;
 }
 
-Json OverlapsJson(const TemplatePosture& posture, const std::vector<LimbOverlap>& overlaps) {
-  Json out = Json::array();
+report::Json OverlapsJson(const TemplatePosture& posture,
+                          const std::vector<LimbOverlap>& overlaps) {
+  report::Json out = report::Json::array();
   for (const LimbOverlap& o : overlaps) {
     out.push_back({{"limbs", {LimbName(posture, o.limbs, 0), LimbName(posture, o.limbs, 1)}},
                    {"depth_m", o.depth},
@@ -95,10 +96,10 @@ Json OverlapsJson(const TemplatePosture& posture, const std::vector<LimbOverlap>
   return out;
 }
 
-Json TableJson(const MatX& table) {
-  Json out = Json::array();
+report::Json TableJson(const MatX& table) {
+  report::Json out = report::Json::array();
   for (long i = 0; i < table.rows(); ++i) {
-    Json row = Json::array();
+    report::Json row = report::Json::array();
     for (long j = 0; j < table.cols(); ++j) row.push_back(std::round(1e4 * table(i, j)) / 1e4);
     out.push_back(row);
   }
@@ -106,14 +107,15 @@ Json TableJson(const MatX& table) {
 }
 
 // Joints beyond a limit: how far (degrees).
-Json LimitsJson(const TemplatePosture& posture) {
-  Json out = Json::object();
+report::Json LimitsJson(const TemplatePosture& posture) {
+  report::Json out = report::Json::object();
   for (int f = 0; f < 2; ++f) {
     for (int l = 1; l < posture.body[f].num_links(); ++l) {
       const std::vector<double> beyond = BeyondLimits(posture, f, l);
       const double most = *std::max_element(beyond.begin(), beyond.end());
       if (most > kBeyond) {
-        out[fmt::format("{}/{}", kFigure[f], posture.body[f].links[l].name)] = most / kDegree;
+        out[fmt::format("{}/{}", report::kFigure[f], posture.body[f].links[l].name)] =
+            most / kDegree;
       }
     }
   }
@@ -130,10 +132,10 @@ void AddOverlapWarnings(const TemplatePosture& posture, const std::vector<LimbOv
   }
 }
 
-std::vector<std::string> Warnings(const TemplatePosture& posture, const TemplateCheck& check,
+std::vector<std::string> Warnings(const TemplatePosture& posture, const api::TemplateCheck& check,
                                   const std::vector<LimbOverlap>& overlaps) {
   std::vector<std::string> warnings = check.warnings;
-  for (const RequirementCheck& c : check.checks) {
+  for (const solver::RequirementCheck& c : check.checks) {
     if (c.met) continue;
     warnings.push_back(
         fmt::format("{}: {:.4g} {}, required {:.4g}", c.name, c.value, c.unit, c.limit));
@@ -169,15 +171,15 @@ MatX GliTableOf(const TemplatePosture& posture) {
 
 std::vector<double> BeyondLimits(const TemplatePosture& posture, int figure, int link) {
   std::vector<double> beyond;
-  for (const LimitViolation& v : LimitViolations(posture.body[figure].links[link].limit,
-                                                 posture.pose[figure].rotation[link])) {
+  for (const solver::LimitViolation& v : solver::LimitViolations(
+           posture.body[figure].links[link].limit, posture.pose[figure].rotation[link])) {
     beyond.push_back(v.beyond);
   }
   return beyond;
 }
 
 std::vector<std::string> WarningsOf(const TemplatePosture& posture) {
-  return Warnings(posture, CheckTemplate(posture), OverlapsOf(posture));
+  return Warnings(posture, api::CheckTemplate(posture), OverlapsOf(posture));
 }
 
 std::vector<Tag> Remeasured(const std::vector<Tag>& tags, const TemplatePosture& posture) {
@@ -194,24 +196,24 @@ std::vector<Tag> Remeasured(const std::vector<Tag>& tags, const TemplatePosture&
   return out;
 }
 
-Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
+report::Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<Tag>& tags) {
   const std::vector<Tag> now = Remeasured(tags, posture);
   const std::vector<LimbOverlap> overlaps = OverlapsOf(posture);
-  std::vector<std::string> warnings = TagWarnings(posture, KeptTags(posture, now));
+  std::vector<std::string> warnings = api::TagWarnings(posture, KeptTags(posture, now));
   AddOverlapWarnings(posture, overlaps, &warnings);
   return {{"tags", TagsJson(posture, now)},
           {"overlaps", OverlapsJson(posture, overlaps)},
           {"warnings", warnings}};
 }
 
-Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags) {
-  const TemplateCheck check = CheckTemplate(posture);
+report::Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags) {
+  const api::TemplateCheck check = api::CheckTemplate(posture);
   const std::vector<Tag> all = AllTags(posture, check.tangles.tags);
   if (tags) *tags = all;
   const std::vector<LimbOverlap> overlaps = OverlapsOf(posture);
   return {{"name", posture.name},
           {"requirements_met", check.met()},
-          {"requirements", ChecksJson(check.checks)},
+          {"requirements", report::ChecksJson(check.checks)},
           {"tags", TagsJson(posture, all)},
           {"literal_tangles", check.tangles.literal.size()},
           {"overlaps", OverlapsJson(posture, overlaps)},
@@ -220,4 +222,4 @@ Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags) {
           {"gli_table", TableJson(GliTableOf(posture))}};
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -7,11 +7,11 @@
 #include "solver/optimizer/pose_solve.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 // Two capsules that overlap, of one figure or of both.
 struct LimbOverlap {
-  LimbPair limbs;
+  solver::LimbPair limbs;
   double depth = 0;           // m
   Vec3 place = Vec3::Zero();  // m, in the middle of what both fill
 };
@@ -31,11 +31,11 @@ std::vector<std::string> WarningsOf(const TemplatePosture& posture);
 // All of it: tags {a, b, gli, to_half, rho, group_size, requested, weak, can_slip}, those that the
 // posture lists first, then those that are found; literal_tangles, overlaps, requirements,
 // warnings, gli_table, beyond_limits_deg. `tags`, where given, receives all of them.
-Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags = nullptr);
+report::Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags = nullptr);
 
 // During a drag: tags, overlaps and warnings alone. Finding tags takes some 15 ms, so those that
 // were found before it are measured anew (0.1 ms); what is tangled newly shows at its end.
-Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<Tag>& tags);
+report::Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<Tag>& tags);
 std::vector<Tag> Remeasured(const std::vector<Tag>& tags, const TemplatePosture& posture);
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -6,7 +6,7 @@
 
 #include "tools/posing/edit.h"
 
-namespace retarget {
+namespace retarget::posing {
 namespace {
 
 constexpr size_t kMostHolds = 100;
@@ -124,4 +124,4 @@ void Say(const SetCamera& op, TemplatePosture* posture) {
   posture->camera = op.camera;
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -4,7 +4,7 @@
 
 #include "tools/posing/operations.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 void Say(const AddHold& op, TemplatePosture* posture);
 void Say(const EditHold& op, TemplatePosture* posture);
@@ -18,4 +18,4 @@ void Say(const SetTags& op, TemplatePosture* posture);
 void Say(const SetPhoto& op, TemplatePosture* posture);
 void Say(const SetCamera& op, TemplatePosture* posture);
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -10,7 +10,7 @@
 #include "tools/posing/edit.h"
 #include "tools/posing/named.h"
 
-namespace retarget {
+namespace retarget::posing {
 namespace {
 
 constexpr size_t kMostSteps = 500;  // of the history
@@ -26,19 +26,19 @@ int GestureOf(const Operation& operation) {
 }
 
 // A foot on the floor would hold the drag of its own toe or knee back.
-bool IsDragged(const PoseTask& task, int figure, int node) {
+bool IsDragged(const solver::PoseTask& task, int figure, int node) {
   const Body& body = task.body[figure];
   const auto near = [&](int f, int n) {
     return f == figure &&
            (n == node || body.nodes[node].parent == n || body.nodes[n].parent == node);
   };
   return std::any_of(task.drags.begin(), task.drags.end(),
-                     [&](const NodeTarget& t) { return near(t.figure, t.node); }) ||
+                     [&](const solver::NodeTarget& t) { return near(t.figure, t.node); }) ||
          std::any_of(task.drag_rays.begin(), task.drag_rays.end(),
-                     [&](const NodeRay& r) { return near(r.figure, r.node); });
+                     [&](const solver::NodeRay& r) { return near(r.figure, r.node); });
 }
 
-void AddPins(const PoseState& state, PoseTask* task) {
+void AddPins(const PoseState& state, solver::PoseTask* task) {
   const auto drags = [&](int figure, int node) {
     const auto same = [&](const auto& t) { return t.figure == figure && t.node == node; };
     return std::any_of(task->drags.begin(), task->drags.end(), same) ||
@@ -67,9 +67,10 @@ void AddPins(const PoseState& state, PoseTask* task) {
   }
 }
 
-PoseTask TaskOf(const PoseState& state, const std::array<Pose, 2>& before,
-                const std::vector<NodeTarget>& drags, const std::vector<NodeRay>& rays) {
-  PoseTask task;
+solver::PoseTask TaskOf(const PoseState& state, const std::array<Pose, 2>& before,
+                        const std::vector<solver::NodeTarget>& drags,
+                        const std::vector<solver::NodeRay>& rays) {
+  solver::PoseTask task;
   task.body = state.posture.body;
   task.before = before;
   task.drags = drags;
@@ -79,15 +80,16 @@ PoseTask TaskOf(const PoseState& state, const std::array<Pose, 2>& before,
     TemplatePosture posture = state.posture;
     posture.pose = before;
     const TangleSettings settings;
-    task.tangles =
-        HoldTangles(FindTemplateTangles(posture, settings).tags, posture, settings.margin);
+    task.tangles = solver::HoldTangles(solver::FindTemplateTangles(posture, settings).tags, posture,
+                                       settings.margin);
   }
   AddPins(state, &task);
   return task;
 }
 
-PoseSettings SettingsOf(const PoseOptions& options, int most_iterations, double most_seconds) {
-  PoseSettings settings = DefaultPoseSettings();
+solver::PoseSettings SettingsOf(const PoseOptions& options, int most_iterations,
+                                double most_seconds) {
+  solver::PoseSettings settings = solver::DefaultPoseSettings();
   settings.max_iterations = std::max(most_iterations, 1);
   settings.max_seconds = most_seconds;
   Weights& w = settings.settings.weights;
@@ -113,20 +115,21 @@ void PoseSession::Remember(const std::string& what) {
   gesture_ = hand_gesture_ = 0;
 }
 
-std::optional<PoseResult> PoseSession::Apply(const Operation& operation, int most_iterations,
-                                             double most_seconds) {
+std::optional<solver::PoseResult> PoseSession::Apply(const Operation& operation,
+                                                     int most_iterations, double most_seconds) {
   const std::string what = Named(operation, posture());
   if (const Drag* drag = std::get_if<Drag>(&operation)) {
     CheckNode(posture(), drag->figure, drag->node);
     CheckPlace(drag->target, "target");
-    return DragTo(NodeTarget{drag->figure, drag->node, drag->target}, std::nullopt, drag->gesture,
-                  what, most_iterations, most_seconds);
+    return DragTo(solver::NodeTarget{drag->figure, drag->node, drag->target}, std::nullopt,
+                  drag->gesture, what, most_iterations, most_seconds);
   }
   if (const DragRay* drag = std::get_if<DragRay>(&operation)) {
     CheckNode(posture(), drag->figure, drag->node);
     CheckPlace(drag->origin, "origin");
     CheckDirection(drag->direction);
-    return DragTo(std::nullopt, NodeRay{drag->figure, drag->node, drag->origin, drag->direction},
+    return DragTo(std::nullopt,
+                  solver::NodeRay{drag->figure, drag->node, drag->origin, drag->direction},
                   drag->gesture, what, most_iterations, most_seconds);
   }
   if (std::holds_alternative<Settle>(operation)) {
@@ -141,9 +144,10 @@ std::optional<PoseResult> PoseSession::Apply(const Operation& operation, int mos
   return std::nullopt;
 }
 
-PoseResult PoseSession::DragTo(const std::optional<NodeTarget>& target,
-                               const std::optional<NodeRay>& ray, int gesture,
-                               const std::string& what, int most_iterations, double most_seconds) {
+solver::PoseResult PoseSession::DragTo(const std::optional<solver::NodeTarget>& target,
+                                       const std::optional<solver::NodeRay>& ray, int gesture,
+                                       const std::string& what, int most_iterations,
+                                       double most_seconds) {
   if (gesture == 0 || gesture != gesture_) {
     Remember(what);
     before_ = posture().pose;
@@ -159,8 +163,9 @@ PoseResult PoseSession::DragTo(const std::optional<NodeTarget>& target,
   std::erase_if(rays_, same);
   if (target) targets_.push_back(*target);
   if (ray) rays_.push_back(*ray);
-  const PoseResult result = SolvePose(TaskOf(state_, before_, targets_, rays_), posture().pose,
-                                      SettingsOf(state_.options, most_iterations, most_seconds));
+  const solver::PoseResult result =
+      solver::SolvePose(TaskOf(state_, before_, targets_, rays_), posture().pose,
+                        SettingsOf(state_.options, most_iterations, most_seconds));
   state_.posture.pose = result.pose;
   for (PinnedNode& pin : state_.pins) {  // a pinned node that is dragged is pinned where it ends
     if (!same(pin)) continue;
@@ -195,13 +200,13 @@ void PoseSession::RenamePhoto(const std::string& from, const std::string& to) {
 }
 
 std::string PoseSession::Text() const {
-  const std::string text = FormatTemplate(posture());
-  ParseTemplate(text, posture().name);
+  const std::string text = io::FormatTemplate(posture());
+  io::ParseTemplate(text, posture().name);
   return text;
 }
 
 void PoseSession::Save(const std::string& path, bool force) const {
-  WriteFile(path, Text(), force);
+  io::WriteFile(path, Text(), force);
 }
 
 TemplatePosture RestPosture(double stature_a, double stature_b, double distance) {
@@ -223,4 +228,4 @@ TemplatePosture RestPosture(double stature_a, double stature_b, double distance)
   return state.posture;
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -10,7 +10,7 @@
 #include "solver/optimizer/pose_solve.h"
 #include "tools/posing/state.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 class PoseSession {
  public:
@@ -23,8 +23,8 @@ class PoseSession {
   // nothing where the operation is not valid. `most_iterations` bounds the solver: about 12 for
   // one step of a drag on a page, more where it is to arrive in one step; `most_seconds`, where it
   // is not 0, bounds its time as well.
-  std::optional<PoseResult> Apply(const Operation& operation, int most_iterations = 200,
-                                  double most_seconds = 0);
+  std::optional<solver::PoseResult> Apply(const Operation& operation, int most_iterations = 200,
+                                          double most_seconds = 0);
 
   // To the exact state before the last step, or the last one undone. False where there is none.
   bool Undo();
@@ -52,8 +52,9 @@ class PoseSession {
     std::string what;  // it did
   };
 
-  PoseResult DragTo(const std::optional<NodeTarget>& target, const std::optional<NodeRay>& ray,
-                    int gesture, const std::string& what, int most_iterations, double most_seconds);
+  solver::PoseResult DragTo(const std::optional<solver::NodeTarget>& target,
+                            const std::optional<solver::NodeRay>& ray, int gesture,
+                            const std::string& what, int most_iterations, double most_seconds);
   void Remember(const std::string& what);
   bool Walk(std::vector<Step>* from, std::vector<Step>* to);
 
@@ -64,11 +65,11 @@ class PoseSession {
   // The drag that is under way.
   int gesture_ = 0;  // 0: none
   std::array<Pose, 2> before_;
-  std::vector<NodeTarget> targets_;
-  std::vector<NodeRay> rays_;
+  std::vector<solver::NodeTarget> targets_;
+  std::vector<solver::NodeRay> rays_;
 };
 
 // Two T-posed figures that face each other, `distance` m apart.
 TemplatePosture RestPosture(double stature_a, double stature_b, double distance);
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -7,7 +7,7 @@
 #include "model/body/template_posture.h"
 #include "tools/posing/operations.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 struct PinnedNode {
   int figure = 0, node = 0;
@@ -33,4 +33,4 @@ inline std::array<PosedBody, 2> PosedFigures(const TemplatePosture& posture) {
   return {PoseBody(posture.body[0], posture.pose[0]), PoseBody(posture.body[1], posture.pose[1])};
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -15,7 +15,7 @@
 #include "model/geometry/so3.h"
 #include "tools/posing/state.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 inline std::vector<std::string> Split(const std::string& text, char at) {
   std::vector<std::string> parts;
@@ -53,11 +53,11 @@ class Words {
   }
   int Node(int figure, std::string name) const {
     if (name.ends_with("_foot")) name.replace(name.size() - 4, 4, "ankle");
-    return Named(name, "node", NodeNames(posture_.body[figure]));
+    return Named(name, "node", io::NodeNames(posture_.body[figure]));
   }
   Place LinkAt(const std::string& word) const {
     const auto [figure, name] = Slash(word);
-    return {figure, Named(name, "joint", LinkNames(posture_.body[figure]))};
+    return {figure, Named(name, "joint", io::LinkNames(posture_.body[figure]))};
   }
 
   // As many numbers as one of `counts`.
@@ -91,7 +91,7 @@ class Words {
                    const std::vector<std::string>& names) {
     const auto at = std::find(names.begin(), names.end(), word);
     if (at == names.end()) {
-      throw InputError(fmt::format("unknown {} \"{}\"{}", what, word, Suggestion(word, names)));
+      throw InputError(fmt::format("unknown {} \"{}\"{}", what, word, io::Suggestion(word, names)));
     }
     return static_cast<int>(at - names.begin());
   }
@@ -145,4 +145,4 @@ class Words {
   const TemplatePosture& posture_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -4,7 +4,7 @@
 
 #include "tools/posing/value.h"
 
-namespace retarget {
+namespace retarget::posing {
 namespace {
 
 PoseStep RayStep(const Words& w, bool pin) {
@@ -219,4 +219,4 @@ PoseStep ParsePoseStep(const std::string& name, const std::string& value, const 
   throw InputError("unknown operation");
 }
 
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -7,7 +7,7 @@
 
 #include "tools/posing/state.h"
 
-namespace retarget {
+namespace retarget::posing {
 
 // The options that do something to a posture, for the command line's table of contents.
 struct PoseWord {
@@ -20,4 +20,4 @@ const std::vector<PoseWord>& PoseWords();
 // Throws InputError: "--drag a/left_hnad=0,1,0: unknown node "left_hnad", did you mean ...".
 PoseStep ParsePoseStep(const std::string& name, const std::string& value, const PoseState& state);
 
-}  // namespace retarget
+}  // namespace retarget::posing

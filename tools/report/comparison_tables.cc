@@ -8,7 +8,7 @@
 #include "tools/report/html.h"
 #include "tools/report/json_reading.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 constexpr const char* kMotions[3] = {"source", "baseline", "result"};
@@ -197,4 +197,4 @@ std::string HoldsTableHtml(const Json& report) {
   return table.empty() ? "" : table.Html();
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -5,10 +5,10 @@
 
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 
 std::string MetricsTableHtml(const Json& report);
 std::string TagsTableHtml(const Json& report);
 std::string HoldsTableHtml(const Json& report);
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -7,7 +7,7 @@
 #include "io/render/image.h"
 #include "model/body/template_posture.h"
 
-namespace retarget {
+namespace retarget::report {
 
 // A column of a sheet.
 struct SheetInstant {
@@ -18,14 +18,14 @@ struct SheetInstant {
 
 // Rows: source, simulated (where the run has it, if `baseline`), solved; columns: `instants`.
 // Throws InputError where the folder holds no run.
-Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& instants,
-                   bool baseline, int width = 360, int height = 450);
+io::Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& instants,
+                       bool baseline, int width = 360, int height = 450);
 
 // One instant of the solved motion, with a label above.
-Image SolvedPicture(const std::string& folder, const SheetInstant& instant,
-                    const std::string& label, int width, int height);
+io::Image SolvedPicture(const std::string& folder, const SheetInstant& instant,
+                        const std::string& label, int width, int height);
 
 // A template posture from four sides: the front of a, his left, behind, his right.
-Image TemplateSheet(const TemplatePosture& posture, int width = 360, int height = 420);
+io::Image TemplateSheet(const TemplatePosture& posture, int width = 360, int height = 420);
 
-}  // namespace retarget
+}  // namespace retarget::report

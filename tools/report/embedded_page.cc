@@ -20,7 +20,7 @@ RETARGET_EMBED(retarget_report_page, RETARGET_REPORT_PAGE);
 RETARGET_EMBED(retarget_studio_page, RETARGET_STUDIO_PAGE);
 #endif
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 std::string_view Between(const char* begin, const char* end) {
@@ -53,4 +53,4 @@ std::string_view EmbeddedReportCss() {
   return Between(retarget_report_css_begin, retarget_report_css_end);
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace retarget {
+namespace retarget::report {
 
 // The built page with its markers `<!--retarget:verdict-->`, `tables` and `data`; empty where the
 // program was built without it (RETARGET_STUDIO=OFF).
@@ -16,4 +16,4 @@ std::string_view EmbeddedStudioPage();
 std::string_view EmbeddedThemeCss();
 std::string_view EmbeddedReportCss();
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -10,7 +10,7 @@
 #include "tools/report/html.h"
 #include "tools/report/json_reading.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 // Larger of a's and b's.
@@ -151,4 +151,4 @@ std::string GalleryLine(const Json& report) {
       OfBoth(result, "pose_error_cm"), NumberAt(report, "/timings/frames_per_s"));
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -6,7 +6,7 @@
 
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 
 struct GalleryEntry {
   std::string name;  // of the hold, and of its folder beside the page
@@ -21,4 +21,4 @@ std::string FormatGallery(const std::vector<GalleryEntry>& entries);
 // A run in one line: "met, tags 2, s GLI 0.94 (simulated 0.94), ...".
 std::string GalleryLine(const Json& report);
 
-}  // namespace retarget
+}  // namespace retarget::report

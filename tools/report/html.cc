@@ -6,7 +6,7 @@
 #include <cmath>
 #include <regex>
 
-namespace retarget {
+namespace retarget::report {
 
 std::string EscapeHtml(const std::string& text) {
   std::string out;
@@ -74,4 +74,4 @@ void HtmlTable::Row(const std::vector<Cell>& cells, const std::string& attribute
 
 std::string HtmlTable::Html() const { return html_ + "</tbody></table>"; }
 
-}  // namespace retarget
+}  // namespace retarget::report

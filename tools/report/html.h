@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace retarget {
+namespace retarget::report {
 
 // & < > and quotes as entities.
 std::string EscapeHtml(const std::string& text);
@@ -35,4 +35,4 @@ class HtmlTable {
   int rows_ = 0;
 };
 
-}  // namespace retarget
+}  // namespace retarget::report

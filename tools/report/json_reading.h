@@ -8,7 +8,7 @@
 
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 
 // The value at a pointer such as "/metrics/result/hold_m/0", or null where there is none.
 inline const Json& At(const Json& json, const std::string& pointer) {
@@ -28,4 +28,4 @@ inline std::string TextAt(const Json& json, const std::string& pointer) {
   return value.is_string() ? value.get<std::string>() : std::string();
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

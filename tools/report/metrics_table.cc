@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 double Number(const Json& metrics, const char* key) { return metrics.at(key).get<double>(); }
@@ -91,9 +91,10 @@ std::string RequiredCell(const MetricRow& row, const Json& limit) {
   return fmt::format("{}{:.2f}", row.requirement == "tangle" ? "> " : "<= ", limit.get<double>());
 }
 
-std::string MetricsTable(const MeasureSubject& subject, const Metrics& source,
-                         const Metrics* baseline, const Metrics& result,
-                         const std::vector<RequirementCheck>& checks, const char* last_column) {
+std::string MetricsTable(const solver::MeasureSubject& subject, const solver::Metrics& source,
+                         const solver::Metrics* baseline, const solver::Metrics& result,
+                         const std::vector<solver::RequirementCheck>& checks,
+                         const char* last_column) {
   const Json requirements = ChecksJson(checks);
   std::vector<std::pair<const char*, Json>> columns = {{"source", MetricsJson(subject, source)}};
   if (baseline) columns.emplace_back("baseline", MetricsJson(subject, *baseline));
@@ -119,7 +120,7 @@ std::string MetricsTable(const MeasureSubject& subject, const Metrics& source,
         result.tangles[k].min_signed_gli,
         baseline ? fmt::format(" (baseline {:.3f})", baseline->tangles[k].min_signed_gli) : "");
   }
-  for (const RequirementCheck& c : checks) {
+  for (const solver::RequirementCheck& c : checks) {
     if (c.met) continue;
     out += fmt::format("MISSED {}: {:.4g} {}, required {:.4g}{}{}\n", c.name, c.value, c.unit,
                        c.limit, c.where.empty() ? "" : " at ", c.where);
@@ -127,4 +128,4 @@ std::string MetricsTable(const MeasureSubject& subject, const Metrics& source,
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

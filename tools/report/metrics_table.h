@@ -7,7 +7,7 @@
 
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 
 // One line: what it is called, and how it is read from the metrics of report.json.
 struct MetricRow {
@@ -27,9 +27,9 @@ inline constexpr const char* kStarNote = "* misses what is required\n";
 
 // "metric | source | baseline | result | required", one line each, with what is missed marked.
 // `baseline` may be null; `last_column` heads the motion that the checks are about.
-std::string MetricsTable(const MeasureSubject& subject, const Metrics& source,
-                         const Metrics* baseline, const Metrics& result,
-                         const std::vector<RequirementCheck>& checks,
+std::string MetricsTable(const solver::MeasureSubject& subject, const solver::Metrics& source,
+                         const solver::Metrics* baseline, const solver::Metrics& result,
+                         const std::vector<solver::RequirementCheck>& checks,
                          const char* last_column = "result");
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -4,7 +4,7 @@
 #include "tools/report/tables.h"
 #include "tools/report/verdict.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 // JSON that cannot end the script element it stands in: every "<" lies inside of a string.
@@ -71,4 +71,4 @@ std::string FormatReportPage(const ReportPageData& data) {
   return page;
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

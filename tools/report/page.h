@@ -5,7 +5,7 @@
 
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 
 struct ReportPageData {
   const Json& report;        // report.json (docs/report.md)
@@ -22,4 +22,4 @@ std::string FormatReportPage(const ReportPageData& data);
 // The page without players: verdict, tables, and plots that stand still. Needs no scenes.
 std::string FormatPlainPage(const Json& report, const Json& series);
 
-}  // namespace retarget
+}  // namespace retarget::report

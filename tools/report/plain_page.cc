@@ -10,7 +10,7 @@
 #include "tools/report/svg_plot.h"
 #include "tools/report/tables.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 struct Motion {
@@ -119,4 +119,4 @@ std::string FormatPlainPage(const Json& report, const Json& series) {
          "</main>\n</body>\n</html>\n";
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

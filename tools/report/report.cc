@@ -9,7 +9,7 @@
 #include "io/files.h"
 #include "io/scene/scene_glb.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 std::vector<std::string> NodeNames(const Body& body) {
@@ -26,14 +26,14 @@ Json PathJson(const Body& body, const Path& path) {
   return Json::array({body.nodes[path.from].name, body.nodes[path.to].name});
 }
 
-Json HoldPointJson(const MeasureSubject& subject, const HoldPoint& point) {
+Json HoldPointJson(const solver::MeasureSubject& subject, const HoldPoint& point) {
   if (point.figure == kWorld) return {{"figure", "world"}, {"position", VectorJson(point.offset)}};
   return {{"figure", kFigure[point.figure]},
           {"node", subject.body[point.figure].nodes[point.node].name},
           {"offset", VectorJson(point.offset)}};
 }
 
-HoldPoint HoldPointFromJson(const MeasureSubject& subject, const Json& j) {
+HoldPoint HoldPointFromJson(const solver::MeasureSubject& subject, const Json& j) {
   HoldPoint point;
   const std::string figure = j.at("figure");
   if (figure == "world") return {kWorld, 0, VectorFromJson(j.at("position"))};
@@ -43,7 +43,7 @@ HoldPoint HoldPointFromJson(const MeasureSubject& subject, const Json& j) {
   return point;
 }
 
-Json FigureJson(const Body& body, const FigureMetrics& m) {
+Json FigureJson(const Body& body, const solver::FigureMetrics& m) {
   Json path;
   for (int n = 1; n < body.num_nodes(); ++n) path[body.nodes[n].name] = m.path_m[n];
   return {{"self_penetration_m", m.self_penetration_m},
@@ -65,21 +65,21 @@ Json FigureJson(const Body& body, const FigureMetrics& m) {
 Json ReadReport(const std::string& folder) {
   const std::string path = folder + "/report.json";
   try {
-    return Json::parse(ReadFile(path));
+    return Json::parse(io::ReadFile(path));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path + ": " + error.what());
   }
 }
 
-MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body) {
+solver::MotionView ViewOfScene(const io::SceneMotion& scene, const std::array<Body, 2>& body) {
   std::array<std::vector<int>, 2> nodes;
   for (int f = 0; f < 2; ++f) nodes[f] = scene.FindNodes(kFigure[f], NodeNames(body[f]));
-  MotionView view;
+  solver::MotionView view;
   const std::vector<double>& keys = scene.key_times;
   view.num_frames = static_cast<int>(keys.size());
   view.fps =
       keys.size() > 1 ? (static_cast<double>(keys.size()) - 1) / (keys.back() - keys.front()) : 30;
-  view.at = [&scene, nodes, keys](double frame, PostureSample* sample) {
+  view.at = [&scene, nodes, keys](double frame, solver::PostureSample* sample) {
     const size_t k = std::min(static_cast<size_t>(frame), keys.size() - 1);
     const double next = keys[std::min(k + 1, keys.size() - 1)];
     const double time = keys[k] + (frame - static_cast<double>(k)) * (next - keys[k]);
@@ -91,10 +91,11 @@ MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body
 }
 
 double WriteBackError(const RigMotion& written, const Rig& rig, double metres_per_unit, char up,
-                      const std::vector<NodeJoint>& joints, const MotionView& scene, int figure) {
+                      const std::vector<NodeJoint>& joints, const solver::MotionView& scene,
+                      int figure) {
   const Quat turn = up == 'z' ? Quat(Eigen::AngleAxisd(-kPi / 2, Vec3::UnitX())) : Quat::Identity();
   double worst = 0;
-  PostureSample sample;
+  solver::PostureSample sample;
   const double end = (written.num_frames() - 1) * written.frame_time;
   for (int t = 0; t < scene.num_frames; ++t) {
     const double time = t / scene.fps;
@@ -111,8 +112,8 @@ double WriteBackError(const RigMotion& written, const Rig& rig, double metres_pe
   return worst;
 }
 
-Json SimulationJson(const SimulationResult& s) {
-  return {{"status", NameOf(s.status)},
+Json SimulationJson(const solver::SimulationResult& s) {
+  return {{"status", solver::NameOf(s.status)},
           {"message", s.message},
           {"settled", s.settled},
           {"settle_s", s.settle_s},
@@ -123,7 +124,7 @@ Json SimulationJson(const SimulationResult& s) {
           {"realtime_factor", s.simulated / s.seconds}};
 }
 
-std::string SettleSentence(const SimulationResult& s) {
+std::string SettleSentence(const solver::SimulationResult& s) {
   return fmt::format("{} {:.2f} s, nodes {:.1f} cm from the template on average",
                      s.settled ? "at rest after" : "not at rest after", s.settle_s,
                      100 * s.settle_distance_m);
@@ -132,17 +133,17 @@ std::string SettleSentence(const SimulationResult& s) {
 MeasuredScene::MeasuredScene(std::string bytes, const std::string& name,
                              const std::array<Body, 2>& body)
     : bytes_(std::move(bytes)),
-      scene_(ParseSceneGlb(bytes_, name)),
+      scene_(io::ParseSceneGlb(bytes_, name)),
       view_(ViewOfScene(scene_, body)) {}
 
-void MeasuredScene::Measure(const MeasureSubject& subject, const MeasuredScene& source) {
-  series_ = MeasureSeries(subject, view_, source.view_);
-  metrics_ = MetricsOf(subject, series_, NodesOf(source.view_));
+void MeasuredScene::Measure(const solver::MeasureSubject& subject, const MeasuredScene& source) {
+  series_ = solver::MeasureSeries(subject, view_, source.view_);
+  metrics_ = solver::MetricsOf(subject, series_, solver::NodesOf(source.view_));
 }
 
-Json MetricsJson(const MeasureSubject& subject, const Metrics& m) {
+Json MetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& m) {
   Json tangles = Json::array();
-  for (const TangleMetrics& t : m.tangles) {
+  for (const solver::TangleMetrics& t : m.tangles) {
     tangles.push_back({{"min_signed_gli", t.min_signed_gli},
                        {"min_signed_gli_between_frames", t.min_signed_gli_between},
                        {"frames_below_half", t.frames_below_half},
@@ -161,9 +162,10 @@ Json MetricsJson(const MeasureSubject& subject, const Metrics& m) {
           {"b", FigureJson(subject.body[1], m.figure[1])}};
 }
 
-Json PassThroughsJson(const MeasureSubject& subject, const std::vector<PassThrough>& passes) {
+Json PassThroughsJson(const solver::MeasureSubject& subject,
+                      const std::vector<solver::PassThrough>& passes) {
   Json out = Json::array();
-  for (const PassThrough& p : passes) {
+  for (const solver::PassThrough& p : passes) {
     out.push_back({{"frame", p.frame},
                    {"a", subject.body[0].nodes[p.node_a].name},
                    {"b", subject.body[1].nodes[p.node_b].name}});
@@ -171,11 +173,11 @@ Json PassThroughsJson(const MeasureSubject& subject, const std::vector<PassThrou
   return out;
 }
 
-Json SubjectJson(const MeasureSubject& subject, const Metrics& result) {
+Json SubjectJson(const solver::MeasureSubject& subject, const solver::Metrics& result) {
   Json out;
   out["tangles"] = Json::array();
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
-    const HeldTangle& held = subject.tangles[k];
+    const solver::HeldTangle& held = subject.tangles[k];
     out["tangles"].push_back(
         {{"a", PathJson(subject.body[0], held.tag.tangle.a)},
          {"b", PathJson(subject.body[1], held.tag.tangle.b)},
@@ -216,9 +218,9 @@ Json SubjectJson(const MeasureSubject& subject, const Metrics& result) {
   return out;
 }
 
-MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
+solver::MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
   try {
-    MeasureSubject subject;
+    solver::MeasureSubject subject;
     for (int f = 0; f < 2; ++f) {
       const Json& figure = report.at("bodies").at(kFigure[f]);
       Body& body = subject.body[f];
@@ -236,7 +238,7 @@ MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
       return Path{subject.body[f].FindNode(j.at(0)), subject.body[f].FindNode(j.at(1))};
     };
     for (const Json& t : report.at("tangles")) {
-      HeldTangle held;
+      solver::HeldTangle held;
       held.tag.tangle = {path_of(0, t.at("a")), path_of(1, t.at("b")), t.at("template_gli")};
       held.sign = held.tag.tangle.gli < 0 ? -1 : 1;
       held.target = t.at("target");
@@ -254,16 +256,16 @@ MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
   }
 }
 
-Json ThreeMetricsJson(const MeasureSubject& subject, const Metrics& source, const Metrics* baseline,
-                      const Metrics& result) {
+Json ThreeMetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& source,
+                      const solver::Metrics* baseline, const solver::Metrics& result) {
   return {{"source", MetricsJson(subject, source)},
           {"baseline", baseline ? MetricsJson(subject, *baseline) : Json(nullptr)},
           {"result", MetricsJson(subject, result)}};
 }
 
-Json ConflictsJson(const std::vector<Conflict>& conflicts) {
+Json ConflictsJson(const std::vector<solver::Conflict>& conflicts) {
   Json out = Json::array();
-  for (const Conflict& c : conflicts) {
+  for (const solver::Conflict& c : conflicts) {
     out.push_back({{"requirement", c.requirement},
                    {"frame", c.frame < 0 ? Json(nullptr) : Json(c.frame)},
                    {"limbs", c.limbs},
@@ -274,9 +276,9 @@ Json ConflictsJson(const std::vector<Conflict>& conflicts) {
   return out;
 }
 
-Json ChecksJson(const std::vector<RequirementCheck>& checks) {
+Json ChecksJson(const std::vector<solver::RequirementCheck>& checks) {
   Json out = Json::array();
-  for (const RequirementCheck& c : checks) {
+  for (const solver::RequirementCheck& c : checks) {
     out.push_back({{"name", c.name},
                    {"value", c.value},
                    {"limit", c.limit},
@@ -287,4 +289,4 @@ Json ChecksJson(const std::vector<RequirementCheck>& checks) {
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

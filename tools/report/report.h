@@ -11,7 +11,7 @@
 #include "solver/metrics/diagnosis.h"
 #include "solver/retarget.h"
 
-namespace retarget {
+namespace retarget::report {
 
 using Json = nlohmann::ordered_json;
 
@@ -21,7 +21,7 @@ inline constexpr const char* kFigure[2] = {"a", "b"};  // names in files and mes
 Json ReadReport(const std::string& folder);
 
 // A written scene as a motion to be measured.
-MotionView ViewOfScene(const SceneMotion& scene, const std::array<Body, 2>& body);
+solver::MotionView ViewOfScene(const io::SceneMotion& scene, const std::array<Body, 2>& body);
 
 // A scene's file and what is measured of it.
 class MeasuredScene {
@@ -31,19 +31,19 @@ class MeasuredScene {
   MeasuredScene(const MeasuredScene&) = delete;  // the view looks at the scene
   MeasuredScene& operator=(const MeasuredScene&) = delete;
   // Fills series and metrics; `source` may be this scene itself.
-  void Measure(const MeasureSubject& subject, const MeasuredScene& source);
+  void Measure(const solver::MeasureSubject& subject, const MeasuredScene& source);
 
   const std::string& bytes() const { return bytes_; }
-  const MotionView& view() const { return view_; }
-  const FrameSeries& series() const { return series_; }
-  const Metrics& metrics() const { return metrics_; }
+  const solver::MotionView& view() const { return view_; }
+  const solver::FrameSeries& series() const { return series_; }
+  const solver::Metrics& metrics() const { return metrics_; }
 
  private:
   std::string bytes_;
-  SceneMotion scene_;
-  MotionView view_;
-  FrameSeries series_;
-  Metrics metrics_;
+  io::SceneMotion scene_;
+  solver::MotionView view_;
+  solver::FrameSeries series_;
+  solver::Metrics metrics_;
 };
 
 // Largest distance (m) between the joints of a written-back motion and the scene's nodes, over all
@@ -52,23 +52,25 @@ struct NodeJoint {
   int node, joint;
 };
 double WriteBackError(const RigMotion& written, const Rig& rig, double metres_per_unit, char up,
-                      const std::vector<NodeJoint>& joints, const MotionView& scene, int figure);
+                      const std::vector<NodeJoint>& joints, const solver::MotionView& scene,
+                      int figure);
 inline constexpr double kWriteBackLimit = 0.005;  // m
 
-Json SimulationJson(const SimulationResult& simulation);
+Json SimulationJson(const solver::SimulationResult& simulation);
 // When the figures came to rest, and how far from the template.
-std::string SettleSentence(const SimulationResult& simulation);
+std::string SettleSentence(const solver::SimulationResult& simulation);
 
-Json MetricsJson(const MeasureSubject& subject, const Metrics& metrics);
+Json MetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& metrics);
 // All three as report.json has them; `baseline` may be null.
-Json ThreeMetricsJson(const MeasureSubject& subject, const Metrics& source, const Metrics* baseline,
-                      const Metrics& result);
-Json PassThroughsJson(const MeasureSubject& subject, const std::vector<PassThrough>& passes);
-Json SubjectJson(const MeasureSubject& subject, const Metrics& result);
+Json ThreeMetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& source,
+                      const solver::Metrics* baseline, const solver::Metrics& result);
+Json PassThroughsJson(const solver::MeasureSubject& subject,
+                      const std::vector<solver::PassThrough>& passes);
+Json SubjectJson(const solver::MeasureSubject& subject, const solver::Metrics& result);
 // The subject of a report read back. Throws InputError naming `path`.
-MeasureSubject SubjectFromJson(const Json& report, const std::string& path);
+solver::MeasureSubject SubjectFromJson(const Json& report, const std::string& path);
 
-Json ConflictsJson(const std::vector<Conflict>& conflicts);
-Json ChecksJson(const std::vector<RequirementCheck>& checks);
+Json ConflictsJson(const std::vector<solver::Conflict>& conflicts);
+Json ChecksJson(const std::vector<solver::RequirementCheck>& checks);
 
-}  // namespace retarget
+}  // namespace retarget::report

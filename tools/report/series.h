@@ -5,10 +5,10 @@
 #include "solver/metrics/frame_metrics.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 
 // Source, baseline and result of one scene; the baseline may be null.
-Json SeriesJson(const MeasureSubject& subject, const FrameSeries& source,
-                const FrameSeries* baseline, const FrameSeries& result);
+Json SeriesJson(const solver::MeasureSubject& subject, const solver::FrameSeries& source,
+                const solver::FrameSeries* baseline, const solver::FrameSeries& result);
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -7,7 +7,7 @@
 
 #include "tools/report/html.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 constexpr double kWidth = 620, kHeight = 180, kLeft = 46, kRight = 8, kTop = 8, kBottom = 22;
@@ -143,4 +143,4 @@ std::string FormatSvg(const SvgPlot& plot) {
       curves);
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace retarget {
+namespace retarget::report {
 
 struct SvgLine {
   std::string label, colour, dash;  // colour and dash as CSS writes them
@@ -21,4 +21,4 @@ struct SvgPlot {
 
 std::string FormatSvg(const SvgPlot& plot);
 
-}  // namespace retarget
+}  // namespace retarget::report

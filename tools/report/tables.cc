@@ -9,7 +9,7 @@
 #include "tools/report/json_reading.h"
 #include "tools/report/verdict.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 std::string Card(const std::string& title, const std::string& body, const std::string& note = "",
@@ -238,4 +238,4 @@ std::string TablesHtml(const Json& report) {
          "Integral times the template's sign.</footer>\n";
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

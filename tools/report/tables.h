@@ -6,9 +6,9 @@
 
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 
 std::string VerdictHtml(const Json& report);
 std::string TablesHtml(const Json& report);
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -9,7 +9,7 @@
 #include "tools/report/html.h"
 #include "tools/report/json_reading.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -241,4 +241,4 @@ std::vector<std::string> VerdictSentences(const Json& report) {
   return all;
 }
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -7,7 +7,7 @@
 
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 
 struct Verdict {
   bool met = true;                    // every requirement
@@ -29,4 +29,4 @@ std::vector<std::string> VerdictSentences(const Json& report);
 // "frame 12" in a text, or -1.
 int FrameNamedIn(const std::string& text);
 
-}  // namespace retarget
+}  // namespace retarget::report

@@ -6,11 +6,11 @@
 #include "tools/report/report.h"
 #include "tools/studio/routes.h"
 
-namespace retarget {
+namespace retarget::studio {
 
-StudioAnswer JsonAnswer(const Json& json);
+StudioAnswer JsonAnswer(const report::Json& json);
 
 // A parameter of the address. Throws InputError where it is not there.
 const std::string& Parameter(const StudioRequest& request, const std::string& name);
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 constexpr size_t kLongestLine = 10'000;  // bytes; the rest of a longer one is a line of its own
@@ -130,4 +130,4 @@ void ChildProcess::Signal(int signal) {
   if (pid_ > 0) kill(pid_, signal);
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace retarget {
+namespace retarget::studio {
 
 class ChildProcess {
  public:
@@ -35,4 +35,4 @@ class ChildProcess {
 // started.
 bool Launch(const std::vector<std::string>& words);
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -8,7 +8,7 @@
 #include "io/text/printable.h"
 #include "tools/studio/error.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,14 +21,14 @@ bool IsClip(const fs::path& path) {
   return std::find(extensions.begin(), extensions.end(), own) != extensions.end();
 }
 
-std::string StartId(int f) { return std::string("start/") + kFigure[f]; }
+std::string StartId(int f) { return std::string("start/") + report::kFigure[f]; }
 
 }  // namespace
 
-StudioClips::StudioClips(const std::array<ClipOptions, 2>& start, std::vector<fs::path> folders)
+StudioClips::StudioClips(const std::array<io::ClipOptions, 2>& start, std::vector<fs::path> folders)
     : folders_(std::move(folders)) {
   for (int f = 0; f < 2; ++f) {
-    if (!start[f].path.empty()) start_[f] = LoadClip(start[f]);
+    if (!start[f].path.empty()) start_[f] = io::LoadClip(start[f]);
   }
 }
 
@@ -54,15 +54,15 @@ std::map<std::string, fs::path> StudioClips::Files() const {
   return files;
 }
 
-Json StudioClips::FactsOf(const fs::path& path) {
+report::Json StudioClips::FactsOf(const fs::path& path) {
   std::error_code error;
   const auto modified = fs::last_write_time(path, error);
   Listed& known = listed_[path.string()];
   if (!known.facts.is_null() && known.modified == modified) return known.facts;
-  known = {modified, Json::object()};
+  known = {modified, report::Json::object()};
   if (fs::file_size(path, error) > kLargestCounted || error) return known.facts;
   try {
-    const ClipFile file = ReadClipFile(path.string());
+    const io::ClipFile file = io::ReadClipFile(path.string());
     if (file.has_motion) {
       known.facts["frames"] = file.motion.num_frames();
       known.facts["fps"] = std::round(100 / file.motion.frame_time) / 100;
@@ -75,9 +75,9 @@ Json StudioClips::FactsOf(const fs::path& path) {
   return known.facts;
 }
 
-Json StudioClips::List() {
+report::Json StudioClips::List() {
   const std::lock_guard lock(mutex_);
-  Json files = Json::array();
+  report::Json files = report::Json::array();
   for (int f = 0; f < 2; ++f) {
     if (!start_[f]) continue;
     files.push_back({{"id", StartId(f)},
@@ -85,32 +85,32 @@ Json StudioClips::List() {
                      {"frames", start_[f]->file.motion.num_frames()}});
   }
   for (const auto& [id, path] : Files()) {
-    Json entry = {{"id", id}, {"name", id}};
+    report::Json entry = {{"id", id}, {"name", id}};
     entry.update(FactsOf(path));
     files.push_back(entry);
   }
   return {{"files", files}};
 }
 
-Json StudioClips::StartJson() const {
-  Json out = Json::object();
+report::Json StudioClips::StartJson() const {
+  report::Json out = report::Json::object();
   for (int f = 0; f < 2; ++f) {
     if (!start_[f]) continue;
     const RigMotion& motion = start_[f]->file.motion;
-    out[kFigure[f]] = {{"file", fs::path(start_[f]->options.path).filename().string()},
-                       {"id", StartId(f)},
-                       {"frames", motion.num_frames()},
-                       {"fps", std::round(100 / motion.frame_time) / 100},
-                       {"stature", start_[f]->body.stature}};
+    out[report::kFigure[f]] = {{"file", fs::path(start_[f]->options.path).filename().string()},
+                               {"id", StartId(f)},
+                               {"frames", motion.num_frames()},
+                               {"fps", std::round(100 / motion.frame_time) / 100},
+                               {"stature", start_[f]->body.stature}};
   }
   return out;
 }
 
 std::vector<std::string> StudioClips::Arguments(const std::string& id, int f) const {
-  const std::string figure = kFigure[f];
+  const std::string figure = report::kFigure[f];
   for (int s = 0; s < 2; ++s) {
     if (!start_[s] || id != StartId(s)) continue;
-    const ClipOptions& own = start_[s]->options;
+    const io::ClipOptions& own = start_[s]->options;
     std::vector<std::string> arguments = {"--clip-" + figure, own.path};
     const std::pair<const char*, std::string> options[] = {
         {"--units-", own.units},
@@ -128,16 +128,16 @@ std::vector<std::string> StudioClips::Arguments(const std::string& id, int f) co
   const auto files = Files();
   const auto file = files.find(id);
   if (file == files.end()) {
-    throw StudioError(404, fmt::format("there is no clip \"{}\"", Printable(id)));
+    throw StudioError(404, fmt::format("there is no clip \"{}\"", io::Printable(id)));
   }
   return {"--clip-" + figure, file->second.string()};
 }
 
-std::array<const LoadedClip*, 2> StudioClips::Both() const {
+std::array<const io::LoadedClip*, 2> StudioClips::Both() const {
   if (!start_[0] || !start_[1]) {
     throw InputError("clips: expected the studio to be started with --clip-a and --clip-b");
   }
   return {&*start_[0], &*start_[1]};
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace retarget {
+namespace retarget::studio {
 
 class StudioError : public std::runtime_error {
  public:
@@ -19,4 +19,4 @@ class StudioError : public std::runtime_error {
   std::string reason_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::studio

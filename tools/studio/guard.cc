@@ -8,7 +8,7 @@
 
 #include "tools/studio/error.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 // In a time that does not tell how much of it was right.
@@ -51,4 +51,4 @@ void CheckMessageSize(size_t bytes) {
       413, fmt::format("the message has {} bytes, expected at most {}", bytes, kMostJsonBytes));
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace retarget {
+namespace retarget::studio {
 
 // 32 hexadecimal digits of the system's randomness.
 std::string RandomToken();
@@ -37,4 +37,4 @@ inline constexpr size_t kMostJsonBytes = 1 << 20;  // of a message
 // Throws StudioError (413).
 void CheckMessageSize(size_t bytes);
 
-}  // namespace retarget
+}  // namespace retarget::studio

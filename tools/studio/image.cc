@@ -4,7 +4,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::studio {
 
 std::optional<ImageKind> ImageKindOf(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return ImageKind{"image/png", "png"};
@@ -47,4 +47,4 @@ std::string FromBase64(std::string_view text) {
   return bytes;
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace retarget {
+namespace retarget::studio {
 
 struct ImageKind {
   const char* type;       // "image/png"
@@ -18,4 +18,4 @@ std::optional<ImageKind> ImageKindOf(std::string_view bytes);
 // Bytes of a base64 text (RFC 4648, padded). Throws InputError.
 std::string FromBase64(std::string_view text);
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -10,7 +10,7 @@
 #include "tools/studio/error.h"
 #include "tools/studio/guard.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,9 +19,9 @@ constexpr size_t kMostJobs = 4;  // whose files are kept
 constexpr int kMostLogLines = 2000;
 
 // RFC: HTML living standard, server-sent events.
-std::string Event(const std::string& name, const Json& data) {
+std::string Event(const std::string& name, const report::Json& data) {
   return fmt::format("event: {}\ndata: {}\n", name,
-                     data.dump(-1, ' ', false, Json::error_handler_t::replace));
+                     data.dump(-1, ' ', false, report::Json::error_handler_t::replace));
 }
 
 // A name as that of a file.
@@ -34,10 +34,10 @@ std::string PlainName(const std::string& name) {
 }
 
 // An iteration as the child tells it; null where the line is something else.
-Json IterationOf(const std::string& line) {
+report::Json IterationOf(const std::string& line) {
   if (!line.starts_with("{\"stage\":")) return nullptr;
-  const Json json = Json::parse(line, nullptr, false);
-  return json.is_object() ? json : Json(nullptr);
+  const report::Json json = report::Json::parse(line, nullptr, false);
+  return json.is_object() ? json : report::Json(nullptr);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ std::string StudioJobs::Start(const SolveRequest& request) {
   try {
     job.folder = NewFolder();
     const fs::path posture = job.folder / (PlainName(request.template_name) + ".yaml");
-    WriteFile(posture.string(), request.template_text, true);
+    io::WriteFile(posture.string(), request.template_text, true);
     std::vector<std::string> arguments = request.arguments;
     for (const std::string& more :
          {std::string("--template"), posture.string(), std::string("--out"),
@@ -104,7 +104,7 @@ void StudioJobs::Read(Job* job) {
 }
 
 void StudioJobs::TakeLine(const std::string& line, Job* job) {
-  const Json iteration = IterationOf(line);
+  const report::Json iteration = IterationOf(line);
   if (!iteration.is_null()) {
     job->iterates = true;
     job->events.push_back(Event("progress", iteration));
@@ -123,14 +123,14 @@ void StudioJobs::Finish(int exit_code, Job* job) {
     job->events.push_back(Event("failed", {{"error", error}, {"stopped", job->stopped}}));
     return;
   }
-  const Json report = ReadReport((job->folder / "out").string());
-  const Verdict verdict = VerdictOf(report);
+  const report::Json report = report::ReadReport((job->folder / "out").string());
+  const report::Verdict verdict = report::VerdictOf(report);
   job->events.push_back(
       Event("done", {{"exit_code", exit_code},
                      {"met", verdict.met},
                      {"verdict", verdict.outcome},
-                     {"sentences", VerdictSentences(report)},
-                     {"requirements", report.value("requirements", Json::array())},
+                     {"sentences", report::VerdictSentences(report)},
+                     {"requirements", report.value("requirements", report::Json::array())},
                      {"stopped", job->stopped},
                      {"report", true}}));
 }
@@ -170,7 +170,7 @@ std::string StudioJobs::File(const std::string& id, const std::string& name) {
   std::error_code error;
   for (const auto& item : fs::directory_iterator(job.folder / "out", error)) {
     if (item.path().filename() == name && item.is_regular_file(error)) {
-      return ReadFile(item.path().string());
+      return io::ReadFile(item.path().string());
     }
   }
   throw StudioError(404, "this solve wrote no such file");
@@ -205,4 +205,4 @@ void StudioJobs::Close() {
   if (!root_.empty()) fs::remove_all(root_, error);
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -14,7 +14,7 @@
 #include "tools/report/report.h"
 #include "tools/studio/child_process.h"
 
-namespace retarget {
+namespace retarget::studio {
 
 struct SolveRequest {
   std::string template_name;           // what the report calls it
@@ -69,4 +69,4 @@ class StudioJobs {
   bool closed_ = false;
 };
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -12,7 +12,7 @@
 #include "tools/studio/error.h"
 #include "tools/studio/image.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,7 +52,7 @@ std::string ReadUpTo(const fs::path& path, uintmax_t most) {
     throw InputError(
         fmt::format("{}: has {} bytes, expected at most {}", path.filename().string(), size, most));
   }
-  return ReadFile(path.string());
+  return io::ReadFile(path.string());
 }
 
 // Whether a name is that of a file in the same folder.
@@ -101,7 +101,7 @@ std::string CheckedId(const std::string& name) {
     throw InputError(fmt::format(
         "expected a name for a file, of at most {} bytes, without any of / \\ : * ? \" < > | and "
         "no point at its ends, found \"{}\"",
-        kLongestId, Printable(name)));
+        kLongestId, io::Printable(name)));
   }
   return id;
 }
@@ -152,7 +152,7 @@ std::optional<StudioLibrary::Place> StudioLibrary::Find(const std::string& id) c
 StudioLibrary::Place StudioLibrary::Existing(const std::string& id) const {
   const std::optional<Place> place = Find(id);
   if (!place) {
-    throw StudioError(404, fmt::format("the library has no template \"{}\"", Printable(id)));
+    throw StudioError(404, fmt::format("the library has no template \"{}\"", io::Printable(id)));
   }
   return *place;
 }
@@ -160,7 +160,7 @@ StudioLibrary::Place StudioLibrary::Existing(const std::string& id) const {
 LibraryFile StudioLibrary::ReadAt(const Place& place) const {
   LibraryFile file;
   file.text = ReadUpTo(place.path, kMostText);
-  file.hash = HashOf(file.text);
+  file.hash = io::HashOf(file.text);
   return file;
 }
 
@@ -168,13 +168,13 @@ LibraryFile StudioLibrary::Read(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const Place place = Existing(id);
   LibraryFile file = ReadAt(place);
-  const TemplatePosture posture = ParseTemplate(file.text, place.path.filename().string());
+  const TemplatePosture posture = io::ParseTemplate(file.text, place.path.filename().string());
   if (!posture.photo || !IsPlainName(posture.photo->file)) return file;
   const fs::path photo = place.path.parent_path() / posture.photo->file;
   std::error_code error;
   if (!IsFileWithin(photo, place.path.parent_path())) return file;
   if (fs::file_size(photo, error) > kMostPicture || error) return file;
-  std::string bytes = ReadFile(photo.string());
+  std::string bytes = io::ReadFile(photo.string());
   if (ImageKindOf(bytes)) file.photo = std::move(bytes);
   return file;
 }
@@ -189,7 +189,7 @@ std::string StudioLibrary::Thumbnail(const std::string& id) {
   throw StudioError(404, fmt::format("{} has no thumbnail", id));
 }
 
-void StudioLibrary::AddListed(const std::string& id, const Place& place, Json* list) {
+void StudioLibrary::AddListed(const std::string& id, const Place& place, report::Json* list) {
   std::error_code error;
   const fs::file_time_type time = fs::last_write_time(place.path, error);
   const uintmax_t size = fs::file_size(place.path, error);
@@ -197,14 +197,14 @@ void StudioLibrary::AddListed(const std::string& id, const Place& place, Json* l
   Listed& known = listed_[place.path.string()];
   if (known.entry.is_null() || known.modified != modified || known.size != size) {
     known = {modified, size, {{"id", id}, {"name", id}, {"description", ""}}};
-    known.entry["tags"] = Json::array();
+    known.entry["tags"] = report::Json::array();
     known.entry["read_only"] = place.read_only;
     known.entry["modified"] = fmt::format(
         "{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::file_clock::to_sys(
                                      std::chrono::time_point_cast<std::chrono::seconds>(time))));
     try {
       const TemplatePosture posture =
-          ParseTemplate(ReadAt(place).text, place.path.filename().string());
+          io::ParseTemplate(ReadAt(place).text, place.path.filename().string());
       known.entry["name"] = posture.name;
       known.entry["description"] = posture.description;
       known.entry["tags"] = posture.tags;
@@ -216,7 +216,7 @@ void StudioLibrary::AddListed(const std::string& id, const Place& place, Json* l
   list->back()["has_thumbnail"] = IsFileWithin(ThumbnailOf(place.path), place.path.parent_path());
 }
 
-Json StudioLibrary::List() {
+report::Json StudioLibrary::List() {
   const std::lock_guard lock(mutex_);
   std::map<std::string, Place> found;
   if (!named_.path.empty()) found.emplace(named_id_, named_);
@@ -231,10 +231,11 @@ Json StudioLibrary::List() {
       found.emplace(folder ? item.path().filename().string() : id, Place{path, root.read_only});
     }
   }
-  Json list = Json::array();
+  report::Json list = report::Json::array();
   for (const auto& [id, place] : found) AddListed(id, place, &list);
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Json& x, const Json& y) { return x["name"] < y["name"]; });
+  std::stable_sort(list.begin(), list.end(), [](const report::Json& x, const report::Json& y) {
+    return x["name"] < y["name"];
+  });
   return list;
 }
 
@@ -257,17 +258,17 @@ std::string StudioLibrary::PhotoFile(const std::string& id, const std::string& e
 std::string StudioLibrary::WriteAll(const fs::path& path, const LibrarySave& save) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
-  if (!save.thumbnail.empty()) WriteFile(ThumbnailOf(path).string(), save.thumbnail, true);
+  if (!save.thumbnail.empty()) io::WriteFile(ThumbnailOf(path).string(), save.thumbnail, true);
   for (const fs::path& photo : PhotosOf(path)) {
     const bool ours = !save.photo.empty() && photo.extension() == "." + save.photo_extension;
     if (ours) {
-      WriteFile(photo.string(), save.photo, true);
+      io::WriteFile(photo.string(), save.photo, true);
     } else {
       fs::remove(photo, error);
     }
   }
-  WriteFile(path.string(), save.text, true);
-  return HashOf(save.text);
+  io::WriteFile(path.string(), save.text, true);
+  return io::HashOf(save.text);
 }
 
 std::string StudioLibrary::Save(const LibrarySave& save) {
@@ -292,11 +293,11 @@ std::string StudioLibrary::Duplicate(const std::string& id, const std::string& a
   copy.id = CheckedId(as);
   copy.text = file.text;
   if (!file.photo.empty()) {
-    TemplatePosture posture = ParseTemplate(file.text, id);
+    TemplatePosture posture = io::ParseTemplate(file.text, id);
     copy.photo = file.photo;
     copy.photo_extension = ImageKindOf(file.photo)->extension;
     posture.photo->file = PhotoFile(copy.id, copy.photo_extension);
-    copy.text = FormatTemplate(posture);
+    copy.text = io::FormatTemplate(posture);
   }
   try {
     copy.thumbnail = Thumbnail(id);
@@ -318,4 +319,4 @@ void StudioLibrary::Delete(const std::string& id) {
   listed_.erase(place.path.string());
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

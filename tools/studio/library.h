@@ -12,7 +12,7 @@
 
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::studio {
 
 // Folder of the shipped data: $RETARGET_DATA_DIR, else share/retarget beside the program's bin,
 // else where the program was built from.
@@ -41,7 +41,7 @@ class StudioLibrary {
   StudioLibrary(const std::string& folder, const std::string& named);
 
   // [{id, name, description, tags, read_only, modified, has_thumbnail, error?}], by name.
-  Json List();
+  report::Json List();
   std::string folder() const;  // where new templates go; may not be there yet
   // Id of the file that was named at the start; empty without one.
   const std::string& named_id() const { return named_id_; }
@@ -73,14 +73,14 @@ class StudioLibrary {
   struct Listed {
     int64_t modified;
     uintmax_t size;
-    Json entry;
+    report::Json entry;
   };
 
   std::optional<Place> Find(const std::string& id) const;
   Place Existing(const std::string& id) const;
   std::filesystem::path PlaceFor(const std::string& id);
   LibraryFile ReadAt(const Place& place) const;
-  void AddListed(const std::string& id, const Place& place, Json* list);
+  void AddListed(const std::string& id, const Place& place, report::Json* list);
   std::string WriteAll(const std::filesystem::path& path, const LibrarySave& save);
 
   std::vector<Root> roots_;  // earlier ones hide templates of later ones
@@ -94,4 +94,4 @@ class StudioLibrary {
 // not stay in its folder, or not be a plain name.
 std::string CheckedId(const std::string& name);
 
-}  // namespace retarget
+}  // namespace retarget::studio

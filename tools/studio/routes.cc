@@ -11,7 +11,7 @@
 #include "tools/studio/guard.h"
 #include "tools/studio/image.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 constexpr size_t kMostOps = 64, kMostParameters = 16;
@@ -19,12 +19,12 @@ constexpr int kMostFrames = 10'000'000;
 constexpr size_t kLongestId = 200, kLongestYaml = 1 << 20;  // bytes
 constexpr size_t kMostThumbnail = 700'000;                  // bytes of its base64
 
-std::string TextOr(const Fields& fields, const char* key, size_t most = kLongestId) {
+std::string TextOr(const io::Fields& fields, const char* key, size_t most = kLongestId) {
   return fields.Has(key) ? fields.Text(key, most) : std::string();
 }
 
 // A PNG of the page's canvas.
-std::string ThumbnailOf(const Fields& fields) {
+std::string ThumbnailOf(const io::Fields& fields) {
   if (!fields.Has("thumbnail")) return "";
   std::string text = fields.Text("thumbnail", kMostThumbnail);
   const std::string prefix = "data:image/png;base64,";
@@ -42,16 +42,16 @@ std::string ThumbnailOf(const Fields& fields) {
 
 // The route that was meant, where none is called so.
 [[noreturn]] void RefuseRoute(const StudioRequest& request, const std::vector<std::string>& names) {
-  const std::string asked = request.method + " " + Printable(request.path);
-  throw StudioError(404,
-                    fmt::format("the studio does not know {}{}", asked, Suggestion(asked, names)));
+  const std::string asked = request.method + " " + io::Printable(request.path);
+  throw StudioError(
+      404, fmt::format("the studio does not know {}{}", asked, io::Suggestion(asked, names)));
 }
 
 }  // namespace
 
-StudioAnswer JsonAnswer(const Json& json) {
+StudioAnswer JsonAnswer(const report::Json& json) {
   StudioAnswer answer;
-  answer.body = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  answer.body = json.dump(-1, ' ', false, report::Json::error_handler_t::replace);
   return answer;
 }
 
@@ -64,7 +64,7 @@ const std::string& Parameter(const StudioRequest& request, const std::string& na
 }
 
 StudioAnswer ErrorAnswer(int status, const std::string& sentence, const std::string& reason) {
-  Json json = {{"error", sentence}};
+  report::Json json = {{"error", sentence}};
   if (!reason.empty()) json["reason"] = reason;
   StudioAnswer answer = JsonAnswer(json);
   answer.status = status;
@@ -113,49 +113,50 @@ StudioSessions::Locked StudioRoutes::SessionOf(const StudioRequest& request) {
 
 // -- Sessions ------------------------------------------------------------------------------------
 
-StudioPosture StudioRoutes::PostureToLoad(const Fields& fields) const {
+StudioPosture StudioRoutes::PostureToLoad(const io::Fields& fields) const {
   const int given =
       fields.Has("yaml") + fields.Has("template") + fields.Has("rest") + fields.Has("clips");
   if (given != 1) throw InputError("expected one of yaml, template, rest, clips");
   if (fields.Has("yaml")) {
     StudioPosture out;
-    out.posture = ParseTemplate(fields.Text("yaml", kLongestYaml), "the text");
+    out.posture = io::ParseTemplate(fields.Text("yaml", kLongestYaml), "the text");
     return out;
   }
   if (fields.Has("template")) {
     return PostureOfLibrary(library_, fields.Text("template", kLongestId));
   }
   if (fields.Has("clips")) {
-    const Fields clips = fields.Object("clips");
+    const io::Fields clips = fields.Object("clips");
     clips.Only({"frame_a", "frame_b", "together"});
     const int frame_a = clips.Integer("frame_a", 0, kMostFrames);
     const int frame_b = clips.Integer("frame_b", 0, kMostFrames, frame_a);
     return UnsavedPosture(
-        PostureOfFrames(clips_->Both(), {frame_a, frame_b}, clips.Bool("together", false)));
+        api::PostureOfFrames(clips_->Both(), {frame_a, frame_b}, clips.Bool("together", false)));
   }
-  const Fields rest = fields.Object("rest");
+  const io::Fields rest = fields.Object("rest");
   rest.Only({"stature", "distance"});
   double stature[2] = {1.75, 1.75};
   if (rest.Has("stature")) {
-    const Fields of = rest.Object("stature");
+    const io::Fields of = rest.Object("stature");
     of.Only({"a", "b"});
     stature[0] = of.Number("a", 0.5, 3, stature[0]);
     stature[1] = of.Number("b", 0.5, 3, stature[1]);
   }
-  return UnsavedPosture(RestPosture(stature[0], stature[1], rest.Number("distance", 0, 100, 1)));
+  return UnsavedPosture(
+      posing::RestPosture(stature[0], stature[1], rest.Number("distance", 0, 100, 1)));
 }
 
 void StudioRoutes::AddSessionRoutes() {
   routes_["POST /api/session"] = [this](const StudioRequest& request) {
-    const Message message = ParseMessage(request.body);
-    Fields(message, "").Only(std::vector<std::string>());
+    const io::Message message = io::ParseMessage(request.body);
+    io::Fields(message, "").Only(std::vector<std::string>());
     const std::string id = sessions_.Create(start_.posture);
-    Json start = {{"library", library_->folder()}};
+    report::Json start = {{"library", library_->folder()}};
     if (start_.has_template) start["template"] = start_.posture.posture.name;
     if (!start_.posture.photo.empty()) start["photo"] = true;
-    const Json clips = clips_->StartJson();
+    const report::Json clips = clips_->StartJson();
     if (!clips.empty()) start["clips"] = clips;
-    Json reply = {{"session", id}, {"start", start}};
+    report::Json reply = {{"session", id}, {"start", start}};
     reply.update(sessions_.Find(id)->WholeReply());
     return JsonAnswer(reply);
   };
@@ -166,19 +167,19 @@ void StudioRoutes::AddSessionRoutes() {
     return StudioAnswer{200, "text/yaml; charset=utf-8", SessionOf(request)->Text()};
   };
   routes_["POST /api/load"] = [this](const StudioRequest& request) {
-    const Message message = ParseMessage(request.body);
-    const Fields fields(message, "");
+    const io::Message message = io::ParseMessage(request.body);
+    const io::Fields fields(message, "");
     fields.Only({"session", "yaml", "template", "rest", "clips"});
     const auto session = sessions_.Find(fields.Text("session", kLongestId));
     session->Load(PostureToLoad(fields));
     return JsonAnswer(session->WholeReply());
   };
   routes_["POST /api/do"] = [this](const StudioRequest& request) {
-    const Message message = ParseMessage(request.body);
-    const Fields fields(message, "");
+    const io::Message message = io::ParseMessage(request.body);
+    const io::Fields fields(message, "");
     fields.Only({"session", "ops", "live"});
     const bool live = fields.Bool("live", false);
-    const std::vector<Fields> ops = fields.ObjectList("ops", kMostOps);
+    const std::vector<io::Fields> ops = fields.ObjectList("ops", kMostOps);
     const auto session = sessions_.Find(fields.Text("session", kLongestId));
     const auto result = session->Do(ops, live);
     return JsonAnswer(session->Reply(live, result));
@@ -195,8 +196,8 @@ void StudioRoutes::AddLibraryRoutes() {
     return StudioAnswer{200, "image/png", library_->Thumbnail(Parameter(request, "id"))};
   };
   routes_["POST /api/save"] = [this](const StudioRequest& request) {
-    const Message message = ParseMessage(request.body);
-    const Fields fields(message, "");
+    const io::Message message = io::ParseMessage(request.body);
+    const io::Fields fields(message, "");
     fields.Only({"session", "id", "as", "overwrite", "thumbnail"});
     const std::string thumbnail = ThumbnailOf(fields);
     const auto session = sessions_.Find(fields.Text("session", kLongestId));
@@ -204,18 +205,18 @@ void StudioRoutes::AddLibraryRoutes() {
                                     fields.Bool("overwrite", false), thumbnail));
   };
   routes_["POST /api/duplicate"] = [this](const StudioRequest& request) {
-    const Message message = ParseMessage(request.body);
-    const Fields fields(message, "");
+    const io::Message message = io::ParseMessage(request.body);
+    const io::Fields fields(message, "");
     fields.Only({"id", "as"});
     return JsonAnswer({{"id", library_->Duplicate(fields.Text("id", kLongestId),
                                                   fields.Text("as", kLongestId))}});
   };
   routes_["POST /api/delete"] = [this](const StudioRequest& request) {
-    const Message message = ParseMessage(request.body);
-    const Fields fields(message, "");
+    const io::Message message = io::ParseMessage(request.body);
+    const io::Fields fields(message, "");
     fields.Only({"id"});
     library_->Delete(fields.Text("id", kLongestId));
-    return JsonAnswer(Json::object());
+    return JsonAnswer(report::Json::object());
   };
 }
 
@@ -238,4 +239,4 @@ void StudioRoutes::AddPhotoRoutes() {
   };
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

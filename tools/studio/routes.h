@@ -10,7 +10,7 @@
 #include "tools/studio/library.h"
 #include "tools/studio/sessions.h"
 
-namespace retarget {
+namespace retarget::studio {
 
 struct StudioRequest {
   std::string method, path;  // "POST", "/api/do"
@@ -49,7 +49,7 @@ class StudioRoutes {
   void AddSolveRoutes();
   StudioAnswer StartSolve(const StudioRequest& request);
   StudioAnswer AnswerOrThrow(const StudioRequest& request);
-  StudioPosture PostureToLoad(const Fields& fields) const;
+  StudioPosture PostureToLoad(const io::Fields& fields) const;
   StudioSessions::Locked SessionOf(const StudioRequest& request);
 
   StudioStart start_;
@@ -65,4 +65,4 @@ StudioAnswer ErrorAnswer(int status, const std::string& sentence, const std::str
 // The same for what is thrown.
 StudioAnswer AnswerOf(const std::exception& error);
 
-}  // namespace retarget
+}  // namespace retarget::studio

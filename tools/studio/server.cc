@@ -7,7 +7,7 @@
 
 #include "tools/studio/error.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 constexpr int kThreads = 48;  // each connection that a browser keeps open takes one
@@ -163,4 +163,4 @@ void StudioServer::Run() { http_->server.listen_after_bind(); }
 
 void StudioServer::Stop() { http_->server.stop(); }
 
-}  // namespace retarget
+}  // namespace retarget::studio

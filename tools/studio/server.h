@@ -7,7 +7,7 @@
 #include "tools/studio/guard.h"
 #include "tools/studio/routes.h"
 
-namespace retarget {
+namespace retarget::studio {
 
 class StudioServer {
  public:
@@ -28,4 +28,4 @@ class StudioServer {
   std::unique_ptr<Http> http_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::studio

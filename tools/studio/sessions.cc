@@ -13,7 +13,7 @@
 #include "tools/studio/image.h"
 #include "tools/studio/state.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 constexpr int kLiveIterations = 12, kAllIterations = 200;
@@ -39,14 +39,14 @@ bool SameBodies(const std::array<Body, 2>& x, const std::array<Body, 2>& y) {
 
 StudioPosture UnsavedPosture(TemplatePosture posture) {
   StudioPosture out;
-  out.document.text = FormatTemplate(posture);
+  out.document.text = io::FormatTemplate(posture);
   out.posture = std::move(posture);
   return out;
 }
 
 StudioPosture PostureOfLibrary(StudioLibrary* library, const std::string& id) {
   const LibraryFile file = library->Read(id);
-  StudioPosture out = UnsavedPosture(ParseTemplate(file.text, id + ".yaml"));
+  StudioPosture out = UnsavedPosture(io::ParseTemplate(file.text, id + ".yaml"));
   out.document.id = id;
   out.document.hash = file.hash;
   out.photo = file.photo;
@@ -60,16 +60,16 @@ StudioSession::StudioSession(const StudioPosture& start)
   }
 }
 
-std::optional<PoseResult> StudioSession::Do(const std::vector<Fields>& ops, bool live) {
-  std::vector<PoseStep> steps;
-  for (const Fields& op : ops) steps.push_back(ParsePoseJson(op, pose_.posture()));
+std::optional<solver::PoseResult> StudioSession::Do(const std::vector<io::Fields>& ops, bool live) {
+  std::vector<posing::PoseStep> steps;
+  for (const io::Fields& op : ops) steps.push_back(posing::ParsePoseJson(op, pose_.posture()));
   if (steps.size() == 1) return DoSteps(steps, live);
-  for (const PoseStep& step : steps) {
-    if (std::holds_alternative<HistoryStep>(step)) {
+  for (const posing::PoseStep& step : steps) {
+    if (std::holds_alternative<posing::HistoryStep>(step)) {
       throw InputError("undo and redo: expected to be the only operation of a message");
     }
   }
-  const PoseSession before = pose_;
+  const posing::PoseSession before = pose_;
   try {
     return DoSteps(steps, live);
   } catch (const InputError& error) {
@@ -81,18 +81,19 @@ std::optional<PoseResult> StudioSession::Do(const std::vector<Fields>& ops, bool
   }
 }
 
-std::optional<PoseResult> StudioSession::DoSteps(const std::vector<PoseStep>& steps, bool live) {
-  std::optional<PoseResult> result;
+std::optional<solver::PoseResult> StudioSession::DoSteps(const std::vector<posing::PoseStep>& steps,
+                                                         bool live) {
+  std::optional<solver::PoseResult> result;
   for (size_t k = 0; k < steps.size(); ++k) {
-    if (const auto* history = std::get_if<HistoryStep>(&steps[k])) {
-      const bool undo = *history == HistoryStep::kUndo;
+    if (const auto* history = std::get_if<posing::HistoryStep>(&steps[k])) {
+      const bool undo = *history == posing::HistoryStep::kUndo;
       if (!(undo ? pose_.Undo() : pose_.Redo())) {
         throw InputError(undo ? "there is nothing to undo" : "there is nothing to redo");
       }
       continue;
     }
     const auto solved =
-        pose_.Apply(std::get<Operation>(steps[k]), live ? kLiveIterations : kAllIterations,
+        pose_.Apply(std::get<posing::Operation>(steps[k]), live ? kLiveIterations : kAllIterations,
                     live ? kLiveSeconds : 0);
     if (solved) result = solved;
     pose_.Join(true);
@@ -110,22 +111,22 @@ void StudioSession::Load(const StudioPosture& posture) {
   if (posture.posture.photo && !posture.photo.empty()) {
     KeepPhoto(posture.posture.photo->file, posture.photo);
   }
-  pose_.Apply(SetPosture{posture.posture, static_cast<int>(documents_.size()) - 1});
+  pose_.Apply(posing::SetPosture{posture.posture, static_cast<int>(documents_.size()) - 1});
   ++revision_;
 }
 
-Json StudioSession::State(bool live) {
-  const bool dirty = live || FormatTemplate(pose_.posture()) != document().text;
-  Json state = {{"revision", revision_}, {"dirty", dirty}};
-  state["saved_as"] = document().id.empty() ? Json(nullptr) : Json(document().id);
+report::Json StudioSession::State(bool live) {
+  const bool dirty = live || io::FormatTemplate(pose_.posture()) != document().text;
+  report::Json state = {{"revision", revision_}, {"dirty", dirty}};
+  state["saved_as"] = document().id.empty() ? report::Json(nullptr) : report::Json(document().id);
   state.update(PostureStateJson(pose_));
-  state["queries"] =
-      live ? LiveQueriesJson(pose_.posture(), tags_) : QueriesJson(pose_.posture(), &tags_);
+  state["queries"] = live ? posing::LiveQueriesJson(pose_.posture(), tags_)
+                          : posing::QueriesJson(pose_.posture(), &tags_);
   return state;
 }
 
-Json StudioSession::Reply(bool live, const std::optional<PoseResult>& result) {
-  Json reply = {{"state", State(live)}};
+report::Json StudioSession::Reply(bool live, const std::optional<solver::PoseResult>& result) {
+  report::Json reply = {{"state", State(live)}};
   if (!SameBodies(told_body_, pose_.posture().body)) {
     told_body_ = pose_.posture().body;
     reply["body"] = BodiesJson(told_body_);
@@ -134,13 +135,14 @@ Json StudioSession::Reply(bool live, const std::optional<PoseResult>& result) {
   return reply;
 }
 
-Json StudioSession::WholeReply() {
+report::Json StudioSession::WholeReply() {
   told_body_ = {};
   return Reply(false);
 }
 
-Json StudioSession::Save(StudioLibrary* library, const std::string& id, const std::string& as,
-                         bool overwrite, const std::string& thumbnail) {
+report::Json StudioSession::Save(StudioLibrary* library, const std::string& id,
+                                 const std::string& as, bool overwrite,
+                                 const std::string& thumbnail) {
   LibrarySave save;
   save.id = CheckedId(!as.empty() ? as : !id.empty() ? id : document().id);
   save.overwrite = overwrite;
@@ -157,8 +159,8 @@ Json StudioSession::Save(StudioLibrary* library, const std::string& id, const st
   } else if (posture.photo) {
     warning = fmt::format("the photo {} is not there; the template names it still", photo_was);
   }
-  save.text = FormatTemplate(posture);
-  ParseTemplate(save.text, save.id + ".yaml");  // what is written can be read
+  save.text = io::FormatTemplate(posture);
+  io::ParseTemplate(save.text, save.id + ".yaml");  // what is written can be read
   const std::string hash = library->Save(save);
   if (bytes) {
     KeepPhoto(posture.photo->file, save.photo);
@@ -166,7 +168,7 @@ Json StudioSession::Save(StudioLibrary* library, const std::string& id, const st
   }
   document() = {save.id, hash, save.text};
   ++revision_;
-  Json reply = Reply(false);
+  report::Json reply = Reply(false);
   reply["id"] = save.id;
   if (!warning.empty()) reply["warning"] = warning;
   return reply;
@@ -190,14 +192,14 @@ void StudioSession::SetPhotoBytes(const std::string& bytes) {
   const std::optional<ImageKind> kind = ImageKindOf(bytes);
   if (!kind) throw InputError("photo: expected a PNG, JPEG or WebP picture");
   TemplatePhoto photo;
-  photo.file = fmt::format("photo-{}.{}", HashOf(bytes).substr(8), kind->extension);
+  photo.file = fmt::format("photo-{}.{}", io::HashOf(bytes).substr(8), kind->extension);
   KeepPhoto(photo.file, bytes);
-  pose_.Apply(SetPhoto{photo});
+  pose_.Apply(posing::SetPhoto{photo});
   ++revision_;
 }
 
 void StudioSession::RemovePhoto() {
-  pose_.Apply(SetPhoto{});
+  pose_.Apply(posing::SetPhoto{});
   ++revision_;
 }
 
@@ -235,4 +237,4 @@ StudioSessions::Locked StudioSessions::Find(const std::string& id) {
   throw StudioError(404, "this editing session is over; load the page again");
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -15,7 +15,7 @@
 #include "tools/report/report.h"
 #include "tools/studio/library.h"
 
-namespace retarget {
+namespace retarget::studio {
 
 // A posture that was opened, and the file that it belongs to.
 struct StudioDocument {
@@ -37,32 +37,32 @@ class StudioSession {
  public:
   explicit StudioSession(const StudioPosture& start);
 
-  const PoseSession& pose() const { return pose_; }
+  const posing::PoseSession& pose() const { return pose_; }
 
   // Does all operations, as one step of the history, or none. Throws InputError.
-  std::optional<PoseResult> Do(const std::vector<Fields>& ops, bool live);
+  std::optional<solver::PoseResult> Do(const std::vector<io::Fields>& ops, bool live);
   // Another posture, as one step of the history.
   void Load(const StudioPosture& posture);
   // {state, body?: where it changed since it was last told, result?}.
-  Json Reply(bool live, const std::optional<PoseResult>& result = std::nullopt);
-  Json WholeReply();  // with the body
+  report::Json Reply(bool live, const std::optional<solver::PoseResult>& result = std::nullopt);
+  report::Json WholeReply();  // with the body
 
   std::string Text() const { return pose_.Text(); }
   // {state, id, warning?}. `as` empty: to its own file, or to `id` where that is given.
-  Json Save(StudioLibrary* library, const std::string& id, const std::string& as, bool overwrite,
-            const std::string& thumbnail);
+  report::Json Save(StudioLibrary* library, const std::string& id, const std::string& as,
+                    bool overwrite, const std::string& thumbnail);
 
   const std::string* photo() const;  // bytes; null: none
   void SetPhotoBytes(const std::string& bytes);
   void RemovePhoto();
 
  private:
-  std::optional<PoseResult> DoSteps(const std::vector<PoseStep>& steps, bool live);
+  std::optional<solver::PoseResult> DoSteps(const std::vector<posing::PoseStep>& steps, bool live);
   StudioDocument& document() { return documents_[pose_.state().document]; }
   void KeepPhoto(const std::string& file, const std::string& bytes);
-  Json State(bool live);
+  report::Json State(bool live);
 
-  PoseSession pose_;
+  posing::PoseSession pose_;
   std::vector<StudioDocument> documents_;  // by PoseState::document
   int64_t revision_ = 1;
   std::vector<Tag> tags_;  // as found last
@@ -101,4 +101,4 @@ class StudioSessions {
   int64_t clock_ = 0;
 };
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -10,13 +10,13 @@
 #include "tools/studio/error.h"
 #include "tools/studio/routes.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 constexpr size_t kLongestId = 300, kMostSettings = 50;
 
 // "0:240", as --frames takes it.
-std::string FramesOf(const Fields& fields) {
+std::string FramesOf(const io::Fields& fields) {
   const std::string frames = fields.Text("frames", 40);
   const bool good =
       std::count(frames.begin(), frames.end(), ':') == 1 &&
@@ -26,24 +26,24 @@ std::string FramesOf(const Fields& fields) {
 }
 
 // "solve.start=template"; checked by the reader of settings itself.
-void AddSettings(const Fields& settings, const Message& values,
+void AddSettings(const io::Fields& settings, const io::Message& values,
                  std::vector<std::string>* arguments) {
   if (values.size() > kMostSettings) throw InputError("settings: too many");
   Settings scratch;
   for (const auto& item : values.items()) {
-    const Message& value = item.value();
+    const io::Message& value = item.value();
     if (!value.is_string() && !value.is_number() && !value.is_boolean()) {
       settings.Refuse(item.key(), "a number, a text, true or false");
     }
     const std::string assignment =
         item.key() + "=" + (value.is_string() ? settings.Text(item.key(), 100) : value.dump());
-    SetByName(&scratch, assignment);
+    io::SetByName(&scratch, assignment);
     arguments->push_back("--set");
     arguments->push_back(assignment);
   }
 }
 
-std::vector<std::string> ArgumentsOf(const Fields& fields, const StudioClips& clips) {
+std::vector<std::string> ArgumentsOf(const io::Fields& fields, const StudioClips& clips) {
   std::vector<std::string> arguments;
   for (int f = 0; f < 2; ++f) {
     const std::string id = fields.Text(f == 0 ? "clip_a" : "clip_b", kLongestId);
@@ -54,9 +54,9 @@ std::vector<std::string> ArgumentsOf(const Fields& fields, const StudioClips& cl
     arguments.push_back(FramesOf(fields));
   }
   if (fields.Has("statures")) {
-    const Fields statures = fields.Object("statures");
+    const io::Fields statures = fields.Object("statures");
     statures.Only({"a", "b"});
-    for (const char* figure : kFigure) {
+    for (const char* figure : report::kFigure) {
       if (!statures.Has(figure)) continue;
       arguments.push_back(std::string("--stature-") + figure);
       arguments.push_back(fmt::format("{}", statures.Number(figure, 0.5, 3)));
@@ -83,8 +83,8 @@ const char* TypeOf(const std::string& name) {
 }  // namespace
 
 StudioAnswer StudioRoutes::StartSolve(const StudioRequest& request) {
-  const Message message = ParseMessage(request.body);
-  const Fields fields(message, "");
+  const io::Message message = io::ParseMessage(request.body);
+  const io::Fields fields(message, "");
   fields.Only({"session", "clip_a", "clip_b", "frames", "statures", "settings"});
   SolveRequest solve;
   solve.arguments = ArgumentsOf(fields, *clips_);
@@ -100,11 +100,11 @@ void StudioRoutes::AddSolveRoutes() {
   routes_["GET /api/clips"] = [this](const StudioRequest&) { return JsonAnswer(clips_->List()); };
   routes_["POST /api/solve"] = [this](const StudioRequest& request) { return StartSolve(request); };
   routes_["POST /api/solve/stop"] = [this](const StudioRequest& request) {
-    const Message message = ParseMessage(request.body);
-    const Fields fields(message, "");
+    const io::Message message = io::ParseMessage(request.body);
+    const io::Fields fields(message, "");
     fields.Only({"job"});
     jobs_->Stop(fields.Text("job", kLongestId));
-    return JsonAnswer(Json::object());
+    return JsonAnswer(report::Json::object());
   };
   routes_["GET /api/solve/events"] = [this](const StudioRequest& request) {
     const std::string job = Parameter(request, "job");
@@ -131,4 +131,4 @@ void StudioRoutes::AddSolveRoutes() {
   };
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

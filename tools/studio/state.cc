@@ -5,22 +5,22 @@
 #include "io/template_keys.h"
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 constexpr double kSamePlace = 1e-9;  // m
 
 // To what is seen: a message is half as long so.
 double Rounded(double x) { return std::round(1e6 * x) / 1e6 + 0.0; }  // + 0.0 makes -0 a 0
-Json VectorJson(const Vec3& v) { return {Rounded(v.x()), Rounded(v.y()), Rounded(v.z())}; }
-Json QuatJson(const Quat& q) {
+report::Json VectorJson(const Vec3& v) { return {Rounded(v.x()), Rounded(v.y()), Rounded(v.z())}; }
+report::Json QuatJson(const Quat& q) {
   return {Rounded(q.x()), Rounded(q.y()), Rounded(q.z()), Rounded(q.w())};
 }
-Json DegreesJson(const Quat& q) { return VectorJson(LogSo3(q) / kDegree); }
+report::Json DegreesJson(const Quat& q) { return VectorJson(LogSo3(q) / kDegree); }
 
-Json LimitJson(const JointLimit& limit, bool locked) {
+report::Json LimitJson(const JointLimit& limit, bool locked) {
   if (locked) return {{"kind", "fixed"}};
-  const Json twist = {limit.twist_min / kDegree, limit.twist_max / kDegree};
+  const report::Json twist = {limit.twist_min / kDegree, limit.twist_max / kDegree};
   if (limit.hinge_axis != Vec3::Zero()) {
     return {{"kind", "hinge"},
             {"axis", VectorJson(limit.axis)},
@@ -40,15 +40,15 @@ Json LimitJson(const JointLimit& limit, bool locked) {
 }
 
 // The node at a link's joint centre; null where there is none.
-Json NodeAtLink(const Body& body, const PosedBody& rest, int link) {
+report::Json NodeAtLink(const Body& body, const PosedBody& rest, int link) {
   for (int n = 0; n < body.num_nodes(); ++n) {
     if ((rest.node[n] - rest.centre[link]).norm() < kSamePlace) return body.nodes[n].name;
   }
   return nullptr;
 }
 
-Json BodyJson(const Body& body) {
-  Json nodes = Json::array(), links = Json::array();
+report::Json BodyJson(const Body& body) {
+  report::Json nodes = report::Json::array(), links = report::Json::array();
   for (const Node& node : body.nodes) {
     nodes.push_back({{"name", node.name},
                      {"parent", node.parent},
@@ -66,10 +66,10 @@ Json BodyJson(const Body& body) {
   return {{"stature", body.stature}, {"nodes", nodes}, {"links", links}};
 }
 
-Json FigureJson(const Body& body, const Pose& pose) {
+report::Json FigureJson(const Body& body, const Pose& pose) {
   const PosedBody posed = PoseBody(body, pose);
-  Json nodes = Json::array(), frames = Json::array(), centres = Json::array(),
-       turns = Json::array();
+  report::Json nodes = report::Json::array(), frames = report::Json::array(),
+               centres = report::Json::array(), turns = report::Json::array();
   for (const Vec3& p : posed.node) nodes.push_back(VectorJson(p));
   for (int l = 0; l < body.num_links(); ++l) {
     frames.push_back(QuatJson(Quat(posed.rotation[l])));
@@ -86,18 +86,18 @@ Json FigureJson(const Body& body, const Pose& pose) {
           {"rotation_vectors", turns}};
 }
 
-Json NodesJson(const Body& body, const std::vector<int>& nodes) {
-  Json out = Json::array();
+report::Json NodesJson(const Body& body, const std::vector<int>& nodes) {
+  report::Json out = report::Json::array();
   for (const int n : nodes) out.push_back(body.nodes[n].name);
   return out;
 }
 
-Json PinsJson(const PoseState& state) {
-  Json out = Json::array();
-  for (const PinnedNode& pin : state.pins) {
-    Json entry = {{"figure", kFigure[pin.figure]},
-                  {"node", state.posture.body[pin.figure].nodes[pin.node].name},
-                  {"position", VectorJson(pin.position)}};
+report::Json PinsJson(const posing::PoseState& state) {
+  report::Json out = report::Json::array();
+  for (const posing::PinnedNode& pin : state.pins) {
+    report::Json entry = {{"figure", report::kFigure[pin.figure]},
+                          {"node", state.posture.body[pin.figure].nodes[pin.node].name},
+                          {"position", VectorJson(pin.position)}};
     if (pin.ray) {
       entry["ray"] = {{"origin", VectorJson(pin.ray->origin)},
                       {"direction", VectorJson(pin.ray->direction)}};
@@ -107,16 +107,16 @@ Json PinsJson(const PoseState& state) {
   return out;
 }
 
-Json HoldPointJson(const HoldPoint& point, const std::array<Body, 2>& body) {
-  Json out = {{"figure", FigureNames()[point.figure]}};
+report::Json HoldPointJson(const HoldPoint& point, const std::array<Body, 2>& body) {
+  report::Json out = {{"figure", io::FigureNames()[point.figure]}};
   if (point.figure != kWorld) out["node"] = body[point.figure].nodes[point.node].name;
   out["offset"] = VectorJson(point.offset);
   return out;
 }
 
-Json HoldsJson(const TemplatePosture& posture) {
-  const std::array<PosedBody, 2> posed = PosedFigures(posture);
-  Json out = Json::array();
+report::Json HoldsJson(const TemplatePosture& posture) {
+  const std::array<PosedBody, 2> posed = posing::PosedFigures(posture);
+  report::Json out = report::Json::array();
   for (const Hold& hold : posture.holds) {
     const Vec3 from = HoldPosition(hold.from, posture.body, posed);
     const Vec3 to = HoldPosition(hold.to, posture.body, posed);
@@ -130,11 +130,11 @@ Json HoldsJson(const TemplatePosture& posture) {
   return out;
 }
 
-Json RequestsJson(const TemplatePosture& posture) {
-  Json out = Json::array();
+report::Json RequestsJson(const TemplatePosture& posture) {
+  report::Json out = report::Json::array();
   for (const TangleRequest& t : posture.tangles) {
-    Json entry = {{"a", NodesJson(posture.body[0], {t.a.from, t.a.to})},
-                  {"b", NodesJson(posture.body[1], {t.b.from, t.b.to})}};
+    report::Json entry = {{"a", NodesJson(posture.body[0], {t.a.from, t.a.to})},
+                          {"b", NodesJson(posture.body[1], {t.b.from, t.b.to})}};
     if (t.from_s) entry["from"] = *t.from_s;
     if (t.to_s) entry["to"] = *t.to_s;
     out.push_back(entry);
@@ -142,20 +142,20 @@ Json RequestsJson(const TemplatePosture& posture) {
   return out;
 }
 
-Json OptionsJson(const PoseOptions& o) {
+report::Json OptionsJson(const posing::PoseOptions& o) {
   return {{"holds", o.holds}, {"limits", o.limits},   {"penetration", o.penetration},
           {"floor", o.floor}, {"tangles", o.tangles}, {"feet", o.feet},
           {"root", o.root}};
 }
 
-Json ViewJson(const std::optional<TemplatePhoto>& photo) {
+report::Json ViewJson(const std::optional<TemplatePhoto>& photo) {
   if (!photo) return nullptr;
   return {{"file", photo->file},
           {"opacity", photo->opacity},
           {"scale", photo->scale},
           {"offset", {photo->offset.x(), photo->offset.y()}}};
 }
-Json ViewJson(const std::optional<TemplateCamera>& camera) {
+report::Json ViewJson(const std::optional<TemplateCamera>& camera) {
   if (!camera) return nullptr;
   return {{"eye", VectorJson(camera->eye)},
           {"target", VectorJson(camera->target)},
@@ -164,25 +164,25 @@ Json ViewJson(const std::optional<TemplateCamera>& camera) {
 
 }  // namespace
 
-Json BodiesJson(const std::array<Body, 2>& body) {
+report::Json BodiesJson(const std::array<Body, 2>& body) {
   return {{"a", BodyJson(body[0])}, {"b", BodyJson(body[1])}};
 }
 
-Json PostureStateJson(const PoseSession& session) {
-  const PoseState& state = session.state();
+report::Json PostureStateJson(const posing::PoseSession& session) {
+  const posing::PoseState& state = session.state();
   const TemplatePosture& posture = state.posture;
   const auto leader = [&](int f) {
     return posture.root[f] == RootLeader::kPartner ? "partner" : "world";
   };
-  Json out = {{"can_undo", session.can_undo()}, {"can_redo", session.can_redo()}};
+  report::Json out = {{"can_undo", session.can_undo()}, {"can_redo", session.can_redo()}};
   if (session.can_undo()) out["undo_text"] = session.undo_text();
   out["name"] = posture.name;
   out["description"] = posture.description;
   out["tags_words"] = posture.tags;
   for (int f = 0; f < 2; ++f) {
-    out["figures"][kFigure[f]] = FigureJson(posture.body[f], posture.pose[f]);
-    out["supports"][kFigure[f]] = NodesJson(posture.body[f], posture.supports[f]);
-    out["root"][kFigure[f]] = leader(f);
+    out["figures"][report::kFigure[f]] = FigureJson(posture.body[f], posture.pose[f]);
+    out["supports"][report::kFigure[f]] = NodesJson(posture.body[f], posture.supports[f]);
+    out["root"][report::kFigure[f]] = leader(f);
   }
   out["pins"] = PinsJson(state);
   out["options"] = OptionsJson(state.options);
@@ -193,18 +193,18 @@ Json PostureStateJson(const PoseSession& session) {
   return out;
 }
 
-Json PoseResultJson(const PoseResult& result, const TemplatePosture& posture) {
-  Json out = {{"drag_error_m", result.drag_error_m}, {"pin_error_m", result.pin_error_m},
-              {"stalled", result.stalled},           {"converged", result.converged},
-              {"iterations", result.iterations},     {"ms", 1000 * result.seconds}};
+report::Json PoseResultJson(const solver::PoseResult& result, const TemplatePosture& posture) {
+  report::Json out = {{"drag_error_m", result.drag_error_m}, {"pin_error_m", result.pin_error_m},
+                      {"stalled", result.stalled},           {"converged", result.converged},
+                      {"iterations", result.iterations},     {"ms", 1000 * result.seconds}};
   if (const auto& blocked = result.blocked) {
     for (int k = 0; k < 2; ++k) {
       const int f = blocked->figure[k];
-      out["blocked"].push_back(std::string(kFigure[f]) + "/" +
+      out["blocked"].push_back(std::string(report::kFigure[f]) + "/" +
                                posture.body[f].nodes[blocked->node[k]].name);
     }
   }
   return out;
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -8,15 +8,15 @@
 #include "tools/posing/session.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::studio {
 
 // What does not change with the pose: {a: {stature, nodes, links}, b: ...}.
-Json BodiesJson(const std::array<Body, 2>& body);
+report::Json BodiesJson(const std::array<Body, 2>& body);
 
 // Figures, pins, options and all that the template says; without the queries.
-Json PostureStateJson(const PoseSession& session);
+report::Json PostureStateJson(const posing::PoseSession& session);
 
 // What the solver did: {drag_error_m, pin_error_m, blocked?, stalled, converged, iterations, ms}.
-Json PoseResultJson(const PoseResult& result, const TemplatePosture& posture);
+report::Json PoseResultJson(const solver::PoseResult& result, const TemplatePosture& posture);
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -1,6 +1,6 @@
 #include "solver/problem/terms/foot_lock.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 FootLock::FootLock(const Scene& scene) : planted_(scene.num_frames()) {
   int anchor = 0;
@@ -32,4 +32,4 @@ void FootLock::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -9,7 +9,7 @@
 
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class FootLock : public Term {
  public:
@@ -27,4 +27,4 @@ class FootLock : public Term {
   std::vector<std::vector<Planted>> planted_;  // per frame
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

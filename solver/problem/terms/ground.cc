@@ -1,6 +1,6 @@
 #include "solver/problem/terms/ground.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 void Ground::Evaluate(const Frame& frame, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
@@ -12,4 +12,4 @@ void Ground::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

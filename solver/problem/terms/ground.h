@@ -9,7 +9,7 @@
 #include "model/body/shape.h"
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class Ground : public Term {
  public:
@@ -23,4 +23,4 @@ class Ground : public Term {
   std::array<std::vector<double>, 2> radius_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -2,7 +2,7 @@
 
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 int LinkOf(const Frame& frame, const HoldPoint& point) {
@@ -49,4 +49,4 @@ void HoldTerm::Evaluate(const Frame& frame, Rows* rows) const {
   for (const Hold& hold : frame.scene->holds) AddHoldRows(frame, hold, rows);
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

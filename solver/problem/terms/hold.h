@@ -7,7 +7,7 @@
 
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // Adds the rows of one hold.
 void AddHoldRows(const Frame& frame, const Hold& hold, Rows* rows);
@@ -20,4 +20,4 @@ class HoldTerm : public Term {
   void Evaluate(const Frame& frame, Rows* rows) const override;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

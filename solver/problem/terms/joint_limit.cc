@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 struct Angle {
@@ -83,4 +83,4 @@ void JointLimitTerm::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // How far a rotation lies beyond each limit (rad; negative: within), and the derivative by a turn
 // R -> R exp(w).
@@ -25,4 +25,4 @@ class JointLimitTerm : public Term {
   void Evaluate(const Frame& frame, Rows* rows) const override;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

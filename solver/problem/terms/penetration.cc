@@ -3,7 +3,7 @@
 #include "model/body/shape.h"
 #include "model/geometry/capsule.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // The capsule round the segment that ends at a node, with a bounding sphere.
@@ -99,4 +99,4 @@ void SelfPenetration::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -12,7 +12,7 @@
 
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class Penetration : public Term {
  public:
@@ -39,4 +39,4 @@ class SelfPenetration : public Term {
   std::vector<std::vector<Allowance>> allowance_;  // per frame, positive depths only
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

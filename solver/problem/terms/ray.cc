@@ -1,6 +1,6 @@
 #include "solver/problem/terms/ray.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 Vec3 FromRay(const NodeRay& ray, const Vec3& point) {
   const Vec3 along = ray.direction.normalized();
@@ -19,4 +19,4 @@ void RayTerm::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

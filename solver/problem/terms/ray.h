@@ -9,7 +9,7 @@
 
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // The line origin + s direction, s any number.
 struct NodeRay {
@@ -33,4 +33,4 @@ class RayTerm : public Term {
   std::vector<NodeRay> rays_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -2,7 +2,7 @@
 
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 void RigTurn::Evaluate(const Frame& frame, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
@@ -20,4 +20,4 @@ void RigTurn::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -6,7 +6,7 @@
 
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class RigTurn : public Term {
  public:
@@ -15,4 +15,4 @@ class RigTurn : public Term {
   void Evaluate(const Frame& frame, Rows* rows) const override;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -4,7 +4,7 @@
 
 #include "solver/problem/terms/tracking.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 constexpr double kStencil[3] = {1, -2, 1};
 }
@@ -69,4 +69,4 @@ double Smoothness::StencilProduct(int num_frames, int t, int lag) {
   return sum;
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "model/settings.h"
 #include "solver/problem/scene.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class Smoothness {
  public:
@@ -32,4 +32,4 @@ class Smoothness {
   std::vector<bool> is_root_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

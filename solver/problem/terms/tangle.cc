@@ -3,7 +3,7 @@
 #include "model/body/path.h"
 #include "model/geometry/polyline.h"
 
-namespace retarget {
+namespace retarget::solver {
 TangleTerm::TangleTerm(const Scene& scene) {
   for (const HeldTangle& held : scene.tangles) {
     items_.push_back({NodesOn(scene.body[0], held.tag.tangle.a),
@@ -29,4 +29,4 @@ void TangleTerm::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

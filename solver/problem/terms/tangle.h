@@ -8,7 +8,7 @@
 
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 class TangleTerm : public Term {
  public:
@@ -25,4 +25,4 @@ class TangleTerm : public Term {
   std::vector<Item> items_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

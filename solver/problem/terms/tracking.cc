@@ -2,7 +2,7 @@
 
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 double JointShare(const JointWeights& w, const std::string& link_name) {
   const size_t side = link_name.find('_');
@@ -125,4 +125,4 @@ void RootTracking::EvaluateFollower(const Frame& frame, int figure, Rows* rows) 
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -17,7 +17,7 @@
 #include "solver/problem/root_drift.h"
 #include "solver/problem/term.h"
 
-namespace retarget {
+namespace retarget::solver {
 
 // Share of the joint group that a link belongs to ("left_elbow" -> elbow).
 double JointShare(const JointWeights& weights, const std::string& link_name);
@@ -55,4 +55,4 @@ class RootTracking : public Term {
   std::array<std::vector<RootShift>, 2> meeting_;
 };
 
-}  // namespace retarget
+}  // namespace retarget::solver

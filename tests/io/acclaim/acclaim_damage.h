@@ -10,7 +10,7 @@
 #include "model/geometry/so3.h"
 #include "tests/io/bvh/bvh_damage.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // The motion up to and with its frame `num_frames`, of files that number them from 1.
 inline std::string CutAmc(const std::string& text, int num_frames) {
@@ -57,4 +57,4 @@ inline bool ReadsOrRefusesAcclaim(const std::string& asf, const std::string& amc
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

@@ -14,7 +14,7 @@
 #include "tests/io/acclaim/acclaim_damage.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // The root with one bone of length 2 along +Z, and a stub of length 1 along +Y at its end.
@@ -650,4 +650,4 @@ TEST(AcclaimTest, DamagedFilesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

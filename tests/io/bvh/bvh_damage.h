@@ -10,7 +10,7 @@
 #include "io/bvh/bvh.h"
 #include "io/recognition/recognise.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // The text up to and with its first `num_frames` frames. The declared count stays.
 inline std::string CutToFrames(const std::string& text, int num_frames) {
@@ -136,4 +136,4 @@ inline bool ReadsOrRefuses(const std::string& text) {
   }
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

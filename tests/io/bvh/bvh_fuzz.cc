@@ -12,7 +12,7 @@
 
 #include "tests/io/bvh/bvh_damage.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 std::vector<std::string> SeedFiles(int argc, char** argv) {
@@ -64,6 +64,6 @@ int Run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io
 
 int main(int argc, char** argv) { return retarget::Run(argc, argv); }

@@ -10,7 +10,7 @@
 #include "tests/io/bvh/bvh_damage.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // A root with one child at (0, 1, 0) and one frame; the root turns by its three channels.
@@ -403,4 +403,4 @@ TEST(BvhTest, DamagedFilesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

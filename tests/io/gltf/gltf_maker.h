@@ -10,7 +10,7 @@
 
 #include "model/geometry/types.h"
 
-namespace retarget {
+namespace retarget::io {
 
 // A document and its data, open to be damaged.
 struct GltfMaker {
@@ -187,4 +187,4 @@ inline GltfMaker AwkwardCharacter() {
   return maker;
 }
 
-}  // namespace retarget
+}  // namespace retarget::io

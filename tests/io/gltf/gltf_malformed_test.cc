@@ -12,7 +12,7 @@
 #include "tests/io/gltf/gltf_maker.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // The message of a refusal; empty where the file is taken, and then all that can be done with it
@@ -343,4 +343,4 @@ TEST(GltfMalformed, RefusesWhatOthersKeepAsBadExamples) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -14,7 +14,7 @@
 #include "model/geometry/types.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 
 using nlohmann::json;
 using Matrix4 = Eigen::Matrix4d;
@@ -230,4 +230,4 @@ class GltfOracle {
   }
 };
 
-}  // namespace retarget
+}  // namespace retarget::io

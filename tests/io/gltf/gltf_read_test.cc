@@ -13,7 +13,7 @@
 #include "tests/io/gltf/gltf_maker.h"
 #include "tests/io/gltf/gltf_oracle.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Time in the file of a frame.
@@ -692,4 +692,4 @@ TEST(GltfRead, OpensBuffersOfItsFolderAlone) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -13,7 +13,7 @@
 #include "tests/io/gltf/gltf_maker.h"
 #include "tests/io/gltf/gltf_oracle.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 std::string CharacterPath(const std::string& file) { return SharedPath("data/characters/") + file; }
@@ -389,4 +389,4 @@ TEST(GltfWrite, AddsNothingToTheValidatorsReport) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

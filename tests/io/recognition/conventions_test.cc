@@ -14,7 +14,7 @@
 #include "tests/rig_figure.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // A bone that exporters add: name, parent, offset in the rest pose (cm, x outwards). '#' and '@'
@@ -669,4 +669,4 @@ TEST(OtherConventions, ATieIsRefusedByTheJointThatDiffers) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -7,7 +7,7 @@
 #include "io/recognition/recognise.h"
 #include "tests/rig_figure.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 struct Bone {
@@ -204,4 +204,4 @@ TEST(JointShape, LegsMayHangFromAPelvisBone) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

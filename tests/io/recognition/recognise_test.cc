@@ -11,7 +11,7 @@
 #include "model/geometry/so3.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 using Names = std::map<std::string, std::string>;  // the project's name -> the rig's
@@ -575,4 +575,4 @@ TEST(RecogniseTest, ShapeRefusesAmbiguousArms) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

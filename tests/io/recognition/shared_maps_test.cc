@@ -12,7 +12,7 @@
 #include "model/rig/points.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 // Bones between blanks; '-' where no bone plays the joint. The right side is the left with
@@ -273,4 +273,4 @@ TEST(SharedMaps, Facing) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -12,7 +12,7 @@
 #include "io/render/capsule_light.h"
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 const Vec3 kRed(0.9, 0.1, 0.1), kBlue(0.1, 0.2, 0.9);
@@ -270,4 +270,4 @@ TEST(EncodePng, IsReadBack) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

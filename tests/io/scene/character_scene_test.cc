@@ -16,7 +16,7 @@
 #include "tests/io/gltf/gltf_maker.h"
 #include "tests/io/gltf/gltf_oracle.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr int kFrames = 6;
@@ -660,4 +660,4 @@ TEST(CharacterScene, AddsNothingToTheValidatorsReport) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -21,7 +21,7 @@
 #include "model/geometry/so3.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::io {
 namespace {
 
 constexpr double kFps = 24.0;
@@ -519,4 +519,4 @@ TEST_F(SceneGlbTest, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::io

@@ -8,7 +8,7 @@
 #include "solver/optimizer/spacetime.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kStep = 1e-6;
@@ -316,4 +316,4 @@ TEST_F(Words, ATagThatAimsTooLowOrHasComeApart) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 #include "solver/metrics/metrics.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // Two standing bodies in the air, 5 m apart.
@@ -189,4 +189,4 @@ TEST(Series, ExtremesAreTheMetrics) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "solver/metrics/requirements.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // Two standing bodies, far apart unless a test brings them together.
@@ -415,4 +415,4 @@ TEST_F(MeasureTest, RequirementsMetAndMissed) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 
 #include "solver/problem/terms/smoothness.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 struct RandomSystem {
@@ -118,4 +118,4 @@ TEST(BandedSystem, ThreadsDoNotChangeTheResult) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -9,7 +9,7 @@
 #include "solver/problem/terms/joint_limit.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 PoseTask TaskOf(const TemplatePosture& posture) {
@@ -270,4 +270,4 @@ TEST(PoseSolve, WithoutAnythingToDoNothingMoves) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

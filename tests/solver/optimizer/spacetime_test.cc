@@ -8,7 +8,7 @@
 #include "solver/start/start.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 Settings Tight() {
@@ -216,4 +216,4 @@ TEST(Spacetime, NoLimbPassesThroughALimbBetweenAcceptedIterates) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "model/geometry/so3.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr int kFrames = 121;  // 4 s
@@ -105,4 +105,4 @@ TEST(Meeting, NothingIsSharedWithoutATieOrByAFollower) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

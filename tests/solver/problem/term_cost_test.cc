@@ -7,7 +7,7 @@
 #include "solver/start/start.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 const TermCost& Named(const std::vector<TermCost>& costs, const std::string& name) {
@@ -90,4 +90,4 @@ TEST(TermCost, HistoryHasTheSharesOfEveryIteration) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -8,7 +8,7 @@
 #include "solver/problem/terms/ray.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 constexpr double kStep = 1e-6;
@@ -205,4 +205,4 @@ TEST(Terms, TrackingAloneIsZeroAtTheSource) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -7,7 +7,7 @@
 
 #include "model/geometry/so3.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 PhysicsFigure Undamped(const Body& body) {
@@ -249,4 +249,4 @@ TEST(PhysicsWorld, AWeldKeepsTheRelativeTurn) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

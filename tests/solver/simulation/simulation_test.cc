@@ -12,7 +12,7 @@
 #include "solver/simulation/tangle_force.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 // Two figures that stand on the floor, far apart, nothing between them.
@@ -293,4 +293,4 @@ TEST(Start, BestTakesTheCheaperOfBoth) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

@@ -9,7 +9,7 @@
 #include "solver/metrics/metrics.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 std::array<PosedBody, 2> PosedOf(const TemplatePosture& posture) {
@@ -193,4 +193,4 @@ TEST(FitTemplate, TagsAimNoHigherThanTheTemplate) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

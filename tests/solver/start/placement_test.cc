@@ -10,7 +10,7 @@
 #include "solver/problem/terms/ground.h"
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::solver {
 namespace {
 
 double Heading(const Pose& pose) {
@@ -125,4 +125,4 @@ TEST_F(PlacementTest, WhereTheClipWasBeforeDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::solver

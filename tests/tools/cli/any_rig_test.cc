@@ -8,15 +8,15 @@
 #include "tests/tools/run_program.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 std::string ErrorOf(const std::string& clip) {
-  ClipOptions options;
+  io::ClipOptions options;
   options.path = clip;
   options.option = "a";
   try {
-    LoadClip(options);
+    io::LoadClip(options);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -31,16 +31,16 @@ TEST(AnyRig, IdentityReturnsEveryFormat) {
   for (const std::string& path :
        {clips + "cmu_16_15.asf:" + clips + "cmu_16_15.amc", clips + "cmu_16_15.bvh",
         characters + "cesium_man.gltf", characters + "m2m_mixamo-sample-rig.glb"}) {
-    ClipOptions options;
+    io::ClipOptions options;
     options.path = path;
     options.option = "a";
-    const LoadedClip loaded = LoadClip(options);
+    const io::LoadedClip loaded = io::LoadClip(options);
     const RigMotion& captured = loaded.file.motion;
     const double span = std::min(loaded.duration(), 2.0);
     const Clip clip = loaded.Resampled(30, 0, static_cast<int>(span * 30) + 1);
     const RigMotion back = WriteBack(
         captured, *loaded.binding, 0, [](const Pose& p) { return p; }, clip, clip);
-    const RigMotion read = ReadBack(loaded.file, FormatClipFile(loaded.file, back, "a", 1));
+    const RigMotion read = io::ReadBack(loaded.file, io::FormatClipFile(loaded.file, back, "a", 1));
     ASSERT_GE(read.num_frames(), 1) << path;
     int checked = 0;
     for (int k = 0; k < read.num_frames(); k += 5) {
@@ -66,14 +66,14 @@ TEST(AnyRig, IdentityReturnsEveryFormat) {
 // A character in another clip's motion bends as the clip does and walks as far as its legs allow.
 TEST(AnyRig, ACharacterTakesOverTheMotion) {
   SKIP_WITHOUT_SHARED_DATA();
-  ClipOptions options;
+  io::ClipOptions options;
   options.path = ProjectPath("data/holds/bear_hug/a.bvh");
   options.option = "a";
-  const LoadedClip own = LoadClip(options);
+  const io::LoadedClip own = io::LoadClip(options);
   options.character = SharedPath("data/characters/m2m_human-male.glb");
   for (const double stature : {0.0, 1.2}) {
     options.stature = stature;
-    const LoadedClip hero = LoadClip(options);
+    const io::LoadedClip hero = io::LoadClip(options);
     EXPECT_TRUE(hero.skin_radii);
     EXPECT_EQ(hero.file.format, "glTF");
     if (stature > 0) {
@@ -107,7 +107,7 @@ TEST(AnyRig, CharactersAndAcclaimThroughTheMainCommand) {
                               "m2m_human-male.glb --character-b " + characters +
                               "m2m_mixamo-sample-rig.glb --out " + (scratch / "out"));
   ASSERT_EQ(run.code, 0) << run.err;
-  const Json report = Json::parse(run.out);
+  const report::Json report = report::Json::parse(run.out);
   EXPECT_EQ(report["write_back"]["a"]["file"], "a.glb");
   EXPECT_LT(report["write_back"]["b"]["largest_error_m"], 0.005);
   EXPECT_EQ(report["inputs"]["clip_a"]["character"]["file"], characters + "m2m_human-male.glb");
@@ -142,10 +142,10 @@ TEST(AnyRig, CharactersAndAcclaimThroughTheMainCommand) {
 TEST(AnyRig, StiffTurnsAreThoseThatTheFileCannotHold) {
   SKIP_WITHOUT_SHARED_DATA();
   const std::string clips = SharedPath("data/clips/cmu_16_15");
-  ClipOptions options;
+  io::ClipOptions options;
   options.path = clips + ".asf:" + clips + ".amc";
   options.option = "a";
-  const LoadedClip clip = LoadClip(options);
+  const io::LoadedClip clip = io::LoadClip(options);
   const RigFrame& captured = clip.file.motion.frames[100];
   const std::vector<StiffTurn> stiff = clip.binding->StiffTurnsOf(captured);
   std::map<int, std::vector<Vec3>> by_link;
@@ -161,7 +161,7 @@ TEST(AnyRig, StiffTurnsAreThoseThatTheFileCannotHold) {
       pose.rotation[l] = pose.rotation[l] * ExpSo3(0.03 * direction);
       RigMotion motion = clip.file.motion;
       motion.frames = {clip.binding->Apply(captured, pose)};
-      const RigMotion read = ReadBack(clip.file, FormatClipFile(clip.file, motion, "a", 1));
+      const RigMotion read = io::ReadBack(clip.file, io::FormatClipFile(clip.file, motion, "a", 1));
       return LogSo3(clip.binding->PoseOf(read.frames[0]).rotation[l].conjugate() * pose.rotation[l])
           .norm();
     };
@@ -178,7 +178,7 @@ TEST(AnyRig, InspectSaysWhatIsInAFile) {
   const Outcome fox =
       RunProgram(scratch, "inspect --json " + SharedPath("data/characters/Fox.glb"));
   ASSERT_EQ(fox.code, 0) << fox.err;
-  const Json json = Json::parse(fox.out);
+  const report::Json json = report::Json::parse(fox.out);
   EXPECT_NE(json["animations"].get<std::string>().find("\"Walk\""), std::string::npos);
   EXPECT_EQ(json["human"].get<std::string>().rfind("no: ", 0), 0u);
   EXPECT_NE(RunProgram(scratch, "inspect " + kHold + "/a.bvh").out.find("yes: profile mixamo"),
@@ -206,4 +206,4 @@ TEST(AnyRig, ClipsThatCannotBeReadSayWhatToDo) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -9,7 +9,7 @@
 #include "model/rig/rig.h"
 #include "tests/tools/run_program.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 constexpr double kTolerance = 1e-4;  // m
@@ -40,7 +40,7 @@ class BlenderTest : public testing::Test {
 TEST_F(BlenderTest, SeesTheScenesAsTheyAreMeant) {
   SKIP_WITHOUT_BLENDER();
   for (const char* name : {"scene.glb", "source.glb"}) {
-    const SceneMotion scene = ReadSceneGlb(Written(name));
+    const io::SceneMotion scene = io::ReadSceneGlb(Written(name));
     const JointCurves curves = BlenderJoints(Written(name), 30);
     EXPECT_GE(curves.size(), 42u) << name;  // the nodes of both figures
     EXPECT_TRUE(curves.contains("b/head_top"));
@@ -63,7 +63,7 @@ TEST_F(BlenderTest, SeesTheScenesAsTheyAreMeant) {
 
 // Every joint of a BVH file; `unit` in m.
 void CompareBvh(const std::string& path, double unit) {
-  const RigMotion motion = ReadBvh(path).motion;
+  const RigMotion motion = io::ReadBvh(path).motion;
   const JointCurves curves = BlenderJoints(path, 1 / motion.frame_time);
   ASSERT_EQ(curves.size(), motion.rig.joints.size());
   int checked = 0;
@@ -99,10 +99,10 @@ TEST_F(BlenderTest, SeesTheWrittenCharactersAsTheyAreMeant) {
                               "m2m_mixamo-sample-rig.glb --out " + (scratch / "out"));
   ASSERT_EQ(run.code, 0) << run.err;
   for (const char* name : {"a.glb", "b.glb"}) {
-    ClipPath path = ParseClipPath(scratch / ("out/" + std::string(name)));
-    path.select.animation = kAnimationName;
-    const RigMotion motion = ReadClipFile(path).motion;
-    const JointCurves curves = BlenderJoints(path.path, 1 / motion.frame_time, kAnimationName);
+    io::ClipPath path = io::ParseClipPath(scratch / ("out/" + std::string(name)));
+    path.select.animation = io::kAnimationName;
+    const RigMotion motion = io::ReadClipFile(path).motion;
+    const JointCurves curves = BlenderJoints(path.path, 1 / motion.frame_time, io::kAnimationName);
     int checked = 0;
     double worst = 0;
     for (int f = 0; f < motion.num_frames(); ++f) {
@@ -127,4 +127,4 @@ TEST_F(BlenderTest, ReadsARealClipAsWeDo) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

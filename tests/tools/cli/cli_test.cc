@@ -4,7 +4,7 @@
 
 #include "tests/tools/run_program.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 using Json = nlohmann::json;
@@ -230,4 +230,4 @@ TEST(Cli, TheValidatorAcceptsWhatIsWritten) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

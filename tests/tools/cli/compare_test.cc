@@ -3,7 +3,7 @@
 
 #include "tests/tools/run_program.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 using Json = nlohmann::json;
@@ -105,4 +105,4 @@ TEST_F(Compare, DamagedReportsGiveOneLineAndExitCode2) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

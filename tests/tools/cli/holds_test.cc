@@ -7,7 +7,7 @@
 #include "tests/tools/run_program.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 std::vector<std::string> HoldNames() {
@@ -32,7 +32,7 @@ TEST_P(Holds, MeetsEveryRequirement) {
       scratch, "--clip-a " + File("a.bvh") + " --clip-b " + File("b.bvh") + " --template " +
                    File("template.yaml") + " --frames 0:90 --json --out " + (scratch / "out"));
   ASSERT_EQ(run.code, 0) << run.out << run.err;
-  const Json report = Json::parse(run.out);
+  const report::Json report = report::Json::parse(run.out);
   EXPECT_GE(report["tangles"].size(), 1u);
   EXPECT_EQ(RunProgram(scratch, "verify " + (scratch / "out")).code, 0);
 }
@@ -40,7 +40,7 @@ TEST_P(Holds, MeetsEveryRequirement) {
 // At least 8 s, and both figures move: nobody stands and waits.
 TEST_P(Holds, MovesThroughout) {
   for (const char* clip : {"a.bvh", "b.bvh"}) {
-    const RigMotion motion = ReadBvh(File(clip)).motion;
+    const RigMotion motion = io::ReadBvh(File(clip)).motion;
     EXPECT_GE(motion.num_frames() * motion.frame_time, 8.0);
     const int second = static_cast<int>(1 / motion.frame_time);
     for (int t = second; t < motion.num_frames(); t += second) {
@@ -65,7 +65,8 @@ TEST_P(Holds, TheScriptMakesTheTemplate) {
                 ("sh " + File("pose.sh") + " " + RETARGET_BINARY + " " + made + " >/dev/null 2>&1")
                     .c_str()),
             0);
-  const TemplatePosture one = ReadTemplate(File("template.yaml")), other = ReadTemplate(made);
+  const TemplatePosture one = io::ReadTemplate(File("template.yaml")),
+                        other = io::ReadTemplate(made);
   EXPECT_EQ(one.name, other.name);
   for (int f = 0; f < 2; ++f) {
     EXPECT_LT((one.pose[f].root_position - other.pose[f].root_position).norm(), 1e-4);
@@ -124,9 +125,9 @@ TEST(Gallery, RunsHoldsAndShowsThem) {
   fs::create_directory(scratch / "hug");
   fs::copy_file(kHold + "/template.yaml", scratch / "hug/template.yaml");
   for (const char* clip : {"a.bvh", "b.bvh"}) {
-    BvhFile file = ReadBvh(kHold + "/" + clip);
+    io::BvhFile file = io::ReadBvh(kHold + "/" + clip);
     file.motion.frames.resize(30);
-    std::ofstream(scratch / (std::string("hug/") + clip)) << FormatBvh(file, file.motion);
+    std::ofstream(scratch / (std::string("hug/") + clip)) << io::FormatBvh(file, file.motion);
   }
   const Outcome run =
       RunProgram(scratch, "gallery " + (scratch / "hug") + " --out " + (scratch / "gallery"));
@@ -157,4 +158,4 @@ TEST(Render, DrawsATemplateAndAsksBeforeItOverwrites) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -8,7 +8,7 @@
 #include "model/rig/write_back.h"
 #include "tests/rig_figure.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 struct Case {
@@ -57,9 +57,9 @@ struct Bound {
 
 Bound Bind(const RigMotion& motion) {
   Bound bound;
-  bound.facts = Recognise(motion, {}, "f.bvh");
+  bound.facts = io::Recognise(motion, {}, "f.bvh");
   bound.binding =
-      std::make_unique<RigBinding>(motion, bound.facts, ChestBone(motion, bound.facts.map), 0);
+      std::make_unique<RigBinding>(motion, bound.facts, io::ChestBone(motion, bound.facts.map), 0);
   return bound;
 }
 
@@ -282,4 +282,4 @@ TEST(RootMotion, KeepsItsOwnMotion) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -5,7 +5,7 @@
 #include "io/recognition/recognise.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 class MapClip : public testing::Test {
@@ -21,9 +21,9 @@ class MapClip : public testing::Test {
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
-  std::string Error(const ClipOptions& options) {
+  std::string Error(const io::ClipOptions& options) {
     try {
-      LoadClip(options);
+      io::LoadClip(options);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -41,11 +41,11 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST_F(MapClip, ThePrintedMapGivesTheSameClip) {
-  ClipOptions options;
+  io::ClipOptions options;
   options.path = bear_hug_;
-  const LoadedClip guessed = LoadClip(options);
-  options.map = Write(MapOfClip(options));
-  const LoadedClip mapped = LoadClip(options);
+  const io::LoadedClip guessed = io::LoadClip(options);
+  options.map = Write(io::MapOfClip(options));
+  const io::LoadedClip mapped = io::LoadClip(options);
   EXPECT_EQ(mapped.facts.map.profile, "by hand");
   EXPECT_EQ(mapped.facts.metres_per_unit, guessed.facts.metres_per_unit);
   const Pose p = guessed.binding->PoseOf(guessed.file.motion.frames[10]);
@@ -56,18 +56,18 @@ TEST_F(MapClip, ThePrintedMapGivesTheSameClip) {
 }
 
 TEST_F(MapClip, AnEditedMapLocksAJointAndOptionsWin) {
-  ClipOptions options;
+  io::ClipOptions options;
   options.path = bear_hug_;
-  const LoadedClip guessed = LoadClip(options);
+  const io::LoadedClip guessed = io::LoadClip(options);
   const Rig& rig = guessed.file.motion.rig;
   const std::string clavicle =
       rig.joints[static_cast<size_t>(guessed.facts.map.left.clavicle)].name;
-  std::string text = MapOfClip(options);
+  std::string text = io::MapOfClip(options);
   text = Replaced(text, "left_clavicle: " + clavicle, "left_clavicle: none");
   text = Replaced(text, "units: " + guessed.facts.unit_name, "units: 0.5");
   options.map = Write(text);
   options.units = guessed.facts.unit_name;
-  const LoadedClip mapped = LoadClip(options);
+  const io::LoadedClip mapped = io::LoadClip(options);
   EXPECT_EQ(mapped.facts.metres_per_unit, guessed.facts.metres_per_unit);
   const Body& body = mapped.binding->body();
   EXPECT_TRUE(body.links[static_cast<size_t>(body.FindLink("left_clavicle"))].locked);
@@ -75,7 +75,7 @@ TEST_F(MapClip, AnEditedMapLocksAJointAndOptionsWin) {
 }
 
 TEST_F(MapClip, ErrorsAreOneLineWithTheirPlace) {
-  ClipOptions options;
+  io::ClipOptions options;
   options.path = bear_hug_;
   options.map = Write("format: 1\njoints: {root: Nobody}\n");
   EXPECT_NE(Error(options).find("a.map.yaml:2: joints.root: no bone \"Nobody\", the nearest "),
@@ -88,18 +88,18 @@ TEST_F(MapClip, ErrorsAreOneLineWithTheirPlace) {
 
 // A figure that is refused prints a draft with the reason; its joints are to be filled in.
 TEST_F(MapClip, RefusedFiguresPrintADraft) {
-  ClipOptions options;
+  io::ClipOptions options;
   options.path = Write(
       "HIERARCHY\nROOT Base\n{\n OFFSET 0 0 0\n CHANNELS 3 Xrotation Yrotation Zrotation\n"
       " JOINT Arm\n {\n  OFFSET 0 1 0\n  CHANNELS 3 Xrotation Yrotation Zrotation\n"
       "  End Site\n  {\n   OFFSET 0 1 0\n  }\n }\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n"
       "0 0 0 0 0 0\n");
   EXPECT_NE(Error(options).find("no human figure: it has 2 joints"), std::string::npos);
-  const std::string draft = MapOfClip(options);
+  const std::string draft = io::MapOfClip(options);
   EXPECT_NE(draft.find("no human figure: it has 2 joints"), std::string::npos);
   EXPECT_NE(draft.find("  left_hip:  # required; nearest: "), std::string::npos) << draft;
   EXPECT_NE(draft.find("#   Base\n"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

@@ -6,15 +6,15 @@
 #include "tests/tools/run_program.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 const Vec3 kMirror(-1, 1, 1);
 
 // A rig that is its own mirror image: every joint stands where the mirror shows its counterpart.
 TEST(Mirror, ShowsWhatAMirrorShows) {
-  const RigMotion motion = ReadBvh(kHold + "/a.bvh").motion;
-  const JointMap map = Recognise(motion, {}, "a.bvh").map;
+  const RigMotion motion = io::ReadBvh(kHold + "/a.bvh").motion;
+  const JointMap map = io::Recognise(motion, {}, "a.bvh").map;
   const std::vector<int> counterparts = Counterparts(motion.rig, map);
   const RigMotion mirrored = Mirrored(motion, counterparts);
   const auto name = [&](int j) { return motion.rig.joints[static_cast<size_t>(j)].name; };
@@ -42,8 +42,8 @@ TEST(Mirror, TwiceIsTheMotionItself) {
                            "clips/bandai_walk_normal_001.bvh", "clips/cmu_16_15.bvh",
                            "pairs/cmu_salsa_10/60_10_scaled.bvh", "clips/fair_dab.bvh"}) {
     SCOPED_TRACE(file);
-    const RigMotion motion = ReadBvh(SharedPath("data/") + file).motion;
-    const JointMap map = Recognise(motion, {}, file).map;
+    const RigMotion motion = io::ReadBvh(SharedPath("data/") + file).motion;
+    const JointMap map = io::Recognise(motion, {}, file).map;
     const std::vector<int> counterparts = Counterparts(motion.rig, map);
     int pairs = 0;
     for (size_t j = 0; j < counterparts.size(); ++j) {
@@ -71,7 +71,7 @@ std::string OtherSide(const std::string& node) {
 }
 
 // 1 where `image` is the path on the other side, -1 where it is listed from its other end, else 0.
-int OrderOf(const Json& path, const Json& image) {
+int OrderOf(const report::Json& path, const report::Json& image) {
   const std::string first = OtherSide(path[0]), last = OtherSide(path[1]);
   if (image[0] == first && image[1] == last) return 1;
   return image[0] == last && image[1] == first ? -1 : 0;
@@ -90,7 +90,7 @@ TEST(Mirror, AMirroredSceneIsSolvedAsItsMirrorImage) {
                                     (scratch / "template.yaml"))
                 .code,
             0);
-  Json report[2];
+  report::Json report[2];
   for (int k = 0; k < 2; ++k) {
     const std::string from = k == 0 ? hold + "/" : scratch / "";
     const Outcome run =
@@ -98,13 +98,13 @@ TEST(Mirror, AMirroredSceneIsSolvedAsItsMirrorImage) {
                                 from + "template.yaml --frames 0:60 --json --out " +
                                 (scratch / ("out" + std::to_string(k))));
     ASSERT_EQ(run.code, 0) << run.err;
-    report[k] = Json::parse(run.out);
+    report[k] = report::Json::parse(run.out);
   }
   ASSERT_EQ(report[0]["tangles"].size(), report[1]["tangles"].size());
-  for (const Json& tag : report[0]["tangles"]) {
+  for (const report::Json& tag : report[0]["tangles"]) {
     // The same limbs on the other side; a path that is listed from its other end changes the sign.
     int found = 0;
-    for (const Json& image : report[1]["tangles"]) {
+    for (const report::Json& image : report[1]["tangles"]) {
       const int order = OrderOf(tag["a"], image["a"]) * OrderOf(tag["b"], image["b"]);
       if (order == 0) continue;
       ++found;
@@ -113,7 +113,7 @@ TEST(Mirror, AMirroredSceneIsSolvedAsItsMirrorImage) {
     }
     EXPECT_EQ(found, 1);
   }
-  const Json &one = report[0]["metrics"]["result"], &other = report[1]["metrics"]["result"];
+  const report::Json &one = report[0]["metrics"]["result"], &other = report[1]["metrics"]["result"];
   EXPECT_NEAR(other["smallest_gli"].get<double>() / one["smallest_gli"].get<double>(), 1, 0.02);
   for (const char* figure : {"a", "b"}) {
     for (const char* key : {"pose_error_cm", "joint_edit_deg"}) {
@@ -133,4 +133,4 @@ TEST(Mirror, RefusesAnotherFormatsName) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

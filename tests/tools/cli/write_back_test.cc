@@ -6,7 +6,7 @@
 #include "model/geometry/so3.h"
 #include "tests/test_data.h"
 
-namespace retarget {
+namespace retarget::cli {
 namespace {
 
 std::vector<std::string> RealClips() {
@@ -25,24 +25,24 @@ std::vector<std::string> RealClips() {
 }
 
 struct Bound {
-  BvhFile file;
+  io::BvhFile file;
   RigFacts facts;
   std::unique_ptr<RigBinding> binding;
 };
 
 Bound Bind(const std::string& path, int most_frames, double stature = 0) {
   Bound bound;
-  bound.file = ReadBvh(path);
+  bound.file = io::ReadBvh(path);
   auto& frames = bound.file.motion.frames;
   // Past the calibration poses at the start, which the salsa files blend out of over six frames.
   if (frames.size() > 8) frames.erase(frames.begin(), frames.begin() + 7);
   if (frames.size() > static_cast<size_t>(most_frames))
     frames.resize(static_cast<size_t>(most_frames));
-  RecogniseOptions options;
+  io::RecogniseOptions options;
   if (path.find("pairs") != std::string::npos) options.metres_per_unit = 1.35;
-  bound.facts = Recognise(bound.file.motion, options, path);
+  bound.facts = io::Recognise(bound.file.motion, options, path);
   bound.binding = std::make_unique<RigBinding>(
-      bound.file.motion, bound.facts, ChestBone(bound.file.motion, bound.facts.map), stature);
+      bound.file.motion, bound.facts, io::ChestBone(bound.file.motion, bound.facts.map), stature);
   return bound;
 }
 
@@ -60,7 +60,7 @@ TEST(WriteBack, IdentityReturnsEveryRealClip) {
     }
     const RigMotion back = WriteBack(
         captured, *bound.binding, 0, [](const Pose& p) { return p; }, clip, clip);
-    const RigMotion read = ParseBvh(FormatBvh(bound.file, back), "back").motion;
+    const RigMotion read = io::ParseBvh(io::FormatBvh(bound.file, back), "back").motion;
     ASSERT_GE(read.num_frames(), 1) << path;
     for (int k = 0; k < read.num_frames(); ++k) {
       const PosedRig before = PoseRig(captured.rig, captured.frames[k]);
@@ -138,4 +138,4 @@ TEST(RigBinding, AnotherStatureScalesEverything) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::cli

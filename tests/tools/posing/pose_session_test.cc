@@ -15,14 +15,14 @@
 #include "tools/posing/session.h"
 #include "tools/posing/words.h"
 
-namespace retarget {
+namespace retarget::posing {
 namespace {
 
-TemplatePosture Hug() { return ReadTemplate(kHold + "/template.yaml"); }
+TemplatePosture Hug() { return io::ReadTemplate(kHold + "/template.yaml"); }
 
 // Every number of a state, and the file that it would be: equal only for the very same state.
 std::string Exactly(const PoseState& state) {
-  std::string bytes = FormatTemplate(state.posture);
+  std::string bytes = io::FormatTemplate(state.posture);
   const auto add = [&](const auto& v) {
     for (long k = 0; k < v.size(); ++k) {
       const double x = v[k] + 0.0;  // -0 is 0
@@ -180,8 +180,8 @@ TEST(PoseSession, MirrorTwiceIsTheIdentityAndOnceFlipsEverySign) {
   const TemplatePosture posture = session.posture();
   session.Apply(Mirror{kBoth});
   const TemplatePosture& mirrored = session.posture();
-  const auto tags = FindTemplateTangles(posture, {}).tags;
-  const auto mirrored_tags = FindTemplateTangles(mirrored, {}).tags;
+  const auto tags = solver::FindTemplateTangles(posture, {}).tags;
+  const auto mirrored_tags = solver::FindTemplateTangles(mirrored, {}).tags;
   ASSERT_FALSE(tags.empty());
   ASSERT_EQ(tags.size(), mirrored_tags.size());
   const auto other = [](int n) {
@@ -210,7 +210,7 @@ TEST(PoseSession, MirrorTwiceIsTheIdentityAndOnceFlipsEverySign) {
 TEST(PoseSession, SwapTwiceIsTheIdentityAndKeepsTheTangles) {
   PoseSession session(Hug());
   const std::string before = Exactly(session.state());
-  const auto tags = FindTemplateTangles(session.posture(), {}).tags;
+  const auto tags = solver::FindTemplateTangles(session.posture(), {}).tags;
   session.Apply(SwapFigures{});
   for (const Tag& tag : tags) {
     EXPECT_NEAR(GliOf(session.posture(), tag.tangle.b, tag.tangle.a), tag.tangle.gli, 1e-12);
@@ -354,7 +354,7 @@ TEST(PoseCommand, DoesWhatIsAskedInTheOrderGivenAndAgreesWithTheSavedFile) {
   ASSERT_EQ(run.code, 0) << run.err;
   const auto queries = nlohmann::json::parse(run.out);
   EXPECT_LT(queries["solves"][0]["drag_error_m"], 0.01);
-  const TemplatePosture posture = ReadTemplate(out);
+  const TemplatePosture posture = io::ReadTemplate(out);
   EXPECT_EQ(posture.name, "made");
   EXPECT_EQ(posture.tags, (std::vector<std::string>{"one", "two"}));
   EXPECT_EQ(posture.holds.size(), 2u);
@@ -388,8 +388,8 @@ TEST(PoseCommand, DoesWhatIsAskedInTheOrderGivenAndAgreesWithTheSavedFile) {
       RunProgram(scratch, "pose --from-clips " + kHold + "/a.bvh " + kHold +
                               "/b.bvh --frame 3 --swap --out " + (scratch / "c.yaml"));
   EXPECT_EQ(clips.code, 0) << clips.err;
-  EXPECT_EQ(ReadTemplate(scratch / "c.yaml").body.size(), 2u);
+  EXPECT_EQ(io::ReadTemplate(scratch / "c.yaml").body.size(), 2u);
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::posing

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 class MetricsTableTest : public testing::Test {
@@ -15,7 +15,7 @@ class MetricsTableTest : public testing::Test {
     for (int f = 0; f < 2; ++f) {
       subject_.body[f] = StandardBody(AverageMeasures(1.75));
       subject_.length[f].assign(subject_.body[f].nodes.size(), 1);
-      for (Metrics* m : {&source_, &baseline_, &result_}) {
+      for (solver::Metrics* m : {&source_, &baseline_, &result_}) {
         m->figure[f].path_m.assign(subject_.body[f].nodes.size(), 0);
       }
     }
@@ -24,7 +24,7 @@ class MetricsTableTest : public testing::Test {
     source_.tangles = {{-0.2, -0.3, 10, 4}};
     baseline_.tangles = {{0.6, 0.4, 0, 3}};
     result_.tangles = {{0.8, 0.7, 0, 5}};
-    for (Metrics* m : {&source_, &baseline_, &result_}) {
+    for (solver::Metrics* m : {&source_, &baseline_, &result_}) {
       m->smallest_gli = m->tangles[0].min_signed_gli;
       m->smallest_gli_between = m->tangles[0].min_signed_gli_between;
     }
@@ -34,8 +34,9 @@ class MetricsTableTest : public testing::Test {
   }
 
   // The words of the line that begins with `name`.
-  std::vector<std::string> Line(const Metrics* baseline, const std::string& name) const {
-    const std::vector<RequirementCheck> checks = CheckRequirements(subject_, result_, {});
+  std::vector<std::string> Line(const solver::Metrics* baseline, const std::string& name) const {
+    const std::vector<solver::RequirementCheck> checks =
+        solver::CheckRequirements(subject_, result_, {});
     std::istringstream table(MetricsTable(subject_, source_, baseline, result_, checks));
     std::string line;
     while (std::getline(table, line)) {
@@ -46,8 +47,8 @@ class MetricsTableTest : public testing::Test {
     return {};
   }
 
-  MeasureSubject subject_;
-  Metrics source_, baseline_, result_;
+  solver::MeasureSubject subject_;
+  solver::Metrics source_, baseline_, result_;
 };
 
 using Words = std::vector<std::string>;
@@ -72,11 +73,12 @@ TEST_F(MetricsTableTest, WithoutBaselineTwoColumns) {
 
 TEST_F(MetricsTableTest, EveryRequirementHasItsRow) {
   subject_.holds.resize(1);
-  for (Metrics* m : {&source_, &result_}) {
+  for (solver::Metrics* m : {&source_, &result_}) {
     m->hold_m = {0.03};
     m->hold_frame = {0};
   }
-  const std::vector<RequirementCheck> checks = CheckRequirements(subject_, result_, {});
+  const std::vector<solver::RequirementCheck> checks =
+      solver::CheckRequirements(subject_, result_, {});
   const Json requirements = ChecksJson(checks);
   int answered = 0;
   for (const MetricRow& row : MetricRows()) {
@@ -87,4 +89,4 @@ TEST_F(MetricsTableTest, EveryRequirementHasItsRow) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::report

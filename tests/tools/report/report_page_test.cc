@@ -6,7 +6,7 @@
 #include "tools/report/page.h"
 #include "tools/report/verdict.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 Json Motion(double kept, double penetration, int passes) {
@@ -196,4 +196,4 @@ TEST(PlainPage, HasVerdictTablesAndPlots) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::report

@@ -8,7 +8,7 @@
 #include "tests/tools/run_program.h"
 #include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 // "x.{a,b}" -> "x.a", "x.b".
@@ -88,10 +88,10 @@ std::set<std::string> RealKeys() {
   }
   // What the example does not show, by the functions that write it: a pass-through, a hold to the
   // world.
-  const Scene scene = SmallScene(4, 0.1);
-  const MeasureSubject subject = SubjectOf(scene);
-  const MotionView motion = ViewOf(scene.body, scene.source);
-  Metrics metrics = Measure(subject, motion, motion);
+  const solver::Scene scene = solver::SmallScene(4, 0.1);
+  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  const solver::MotionView motion = solver::ViewOf(scene.body, scene.source);
+  solver::Metrics metrics = solver::Measure(subject, motion, motion);
   metrics.pass_throughs = {{1, 2, 3}};
   CollectKeys(SubjectJson(subject, metrics), "", &keys);
   return keys;
@@ -119,4 +119,4 @@ TEST(ReportSchema, DocsAndRealReportsHaveTheSameKeys) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::report

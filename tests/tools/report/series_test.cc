@@ -5,27 +5,27 @@
 
 #include "tests/solver/scene_fixture.h"
 
-namespace retarget {
+namespace retarget::report {
 namespace {
 
 constexpr int kFrames = 12;
 
 class SeriesJsonTest : public testing::Test {
  protected:
-  SeriesJsonTest() : scene_(SmallScene(kFrames, 0.3)), subject_(SubjectOf(scene_)) {
+  SeriesJsonTest() : scene_(solver::SmallScene(kFrames, 0.3)), subject_(solver::SubjectOf(scene_)) {
     std::array<Clip, 2> moved;
     for (int f = 0; f < 2; ++f) {
-      moved[f] = Fidget(scene_.body[f], scene_.posture.pose[f], kFrames, 30, 31 + f, 0.3);
+      moved[f] = solver::Fidget(scene_.body[f], scene_.posture.pose[f], kFrames, 30, 31 + f, 0.3);
     }
-    const MotionView source = ViewOf(scene_.body, scene_.source);
-    source_ = MeasureSeries(subject_, source, source);
-    result_ = MeasureSeries(subject_, ViewOf(scene_.body, moved), source);
+    const solver::MotionView source = solver::ViewOf(scene_.body, scene_.source);
+    source_ = solver::MeasureSeries(subject_, source, source);
+    result_ = solver::MeasureSeries(subject_, solver::ViewOf(scene_.body, moved), source);
     result_.pass_throughs = {{3, 5, 6}};
   }
 
-  Scene scene_;
-  MeasureSubject subject_;
-  FrameSeries source_, result_;
+  solver::Scene scene_;
+  solver::MeasureSubject subject_;
+  solver::FrameSeries source_, result_;
 };
 
 TEST_F(SeriesJsonTest, HasEveryCurveInEveryFrame) {
@@ -81,4 +81,4 @@ TEST_F(SeriesJsonTest, NumbersAreRoundedAndInCentimetres) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::report

@@ -8,7 +8,7 @@
 #include "tools/studio/image.h"
 #include "tools/studio/library.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 // The smallest of each kind that says what it is.
@@ -71,10 +71,10 @@ TEST(StudioLibrary, NamesStayInTheirFolder) {
   }
 }
 
-Json List(Studio* studio) {
-  Json by_id = Json::object();
-  const Json library = studio->Get("/api/library").json;
-  for (const Json& entry : library["templates"]) {
+report::Json List(Studio* studio) {
+  report::Json by_id = report::Json::object();
+  const report::Json library = studio->Get("/api/library").json;
+  for (const report::Json& entry : library["templates"]) {
     by_id[entry["id"].get<std::string>()] = entry;
   }
   return by_id;
@@ -97,11 +97,11 @@ TEST(StudioLibrary, WhatIsSavedIsWhatIsRead) {
   const std::string folder = studio.Get("/api/library").json["folder"];
   EXPECT_EQ(ReadWholeFile(folder + "/hug two.yaml"), yaml);
   // `retarget --template` reads it with the same function.
-  EXPECT_EQ(FormatTemplate(ReadTemplate(folder + "/hug two.yaml")), yaml);
+  EXPECT_EQ(io::FormatTemplate(io::ReadTemplate(folder + "/hug two.yaml")), yaml);
   EXPECT_EQ(studio.Get("/api/library/thumbnail?id=hug%20two").body, kPng);
-  const Json entry = List(&studio)["hug two"];
+  const report::Json entry = List(&studio)["hug two"];
   EXPECT_EQ(entry["name"], "my hug");
-  EXPECT_EQ(entry["tags"], Json({"soft", "mine"}));
+  EXPECT_EQ(entry["tags"], report::Json({"soft", "mine"}));
   EXPECT_EQ(entry["read_only"], false);
   EXPECT_EQ(entry["has_thumbnail"], true);
   const Outcome check =
@@ -119,10 +119,10 @@ TEST(StudioLibrary, TheShippedOnesStayAsTheyAre) {
   studio.Post("/api/load", {{"session", session}, {"template", "bear_hug"}});
   studio.Do(session, {{{"op", "swap_figures"}}});
   for (const bool overwrite : {false, true}) {
-    for (const Json& message :
-         {Json{{"session", session}, {"overwrite", overwrite}},
-          Json{{"session", session}, {"id", "bear_hug"}, {"overwrite", overwrite}},
-          Json{{"session", session}, {"as", "bear_hug"}, {"overwrite", overwrite}}}) {
+    for (const report::Json& message :
+         {report::Json{{"session", session}, {"overwrite", overwrite}},
+          report::Json{{"session", session}, {"id", "bear_hug"}, {"overwrite", overwrite}},
+          report::Json{{"session", session}, {"as", "bear_hug"}, {"overwrite", overwrite}}}) {
       const auto reply = studio.Post("/api/save", message);
       ExpectRefusal(reply, 409, "bear_hug");
       EXPECT_EQ(reply.json["reason"], "read_only");
@@ -160,9 +160,9 @@ TEST(StudioLibrary, TwoPagesDoNotOverwriteEachOther) {
   const auto refused = studio.Post("/api/save", {{"session", two}});
   ExpectRefusal(refused, 409, "changed");
   EXPECT_EQ(refused.json["reason"], "changed");
-  EXPECT_EQ(ReadTemplate(folder / "hug.yaml").name, one);
+  EXPECT_EQ(io::ReadTemplate(folder / "hug.yaml").name, one);
   EXPECT_EQ(studio.Post("/api/save", {{"session", two}, {"overwrite", true}}).status, 200);
-  EXPECT_EQ(ReadTemplate(folder / "hug.yaml").name, two);
+  EXPECT_EQ(io::ReadTemplate(folder / "hug.yaml").name, two);
   EXPECT_EQ(studio.Post("/api/save", {{"session", one}}).json["reason"], "changed");
   // An editor beside the studio counts as well.
   std::ofstream(folder / "hug.yaml", std::ios::app) << "# by hand\n";
@@ -186,7 +186,7 @@ TEST(StudioLibrary, SavesAtOnceLeaveOneWholeFile) {
                         {{"op", "set_description"}, {"description", std::string(9000, 'a' + k)}}});
     pages.emplace_back([&studio, &saved, session] {
       httplib::Client client("127.0.0.1", studio.port);
-      const Json message = {{"session", session}, {"as", "same"}, {"overwrite", true}};
+      const report::Json message = {{"session", session}, {"as", "same"}, {"overwrite", true}};
       for (int n = 0; n < 10; ++n) {
         const auto result =
             client.Post("/api/save", studio.Token(), message.dump(), "application/json");
@@ -196,7 +196,7 @@ TEST(StudioLibrary, SavesAtOnceLeaveOneWholeFile) {
   }
   for (std::thread& page : pages) page.join();
   EXPECT_EQ(saved, 60);
-  const TemplatePosture posture = ReadTemplate(folder / "same.yaml");
+  const TemplatePosture posture = io::ReadTemplate(folder / "same.yaml");
   EXPECT_EQ(posture.description, std::string(9000, 'a' + (posture.name.back() - '0')));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / ""), fs::directory_iterator{}), 1);
 }
@@ -214,7 +214,7 @@ TEST(StudioLibrary, LinksOutAndForeignNamesAreNotFollowed) {
   folder.Write("broken.yaml", "format: 1\nname: [");
   fs::create_symlink(kHold + "/a.bvh", folder / "linked.bvh");
   Studio studio({"--library", folder / ""});
-  const Json list = List(&studio);
+  const report::Json list = List(&studio);
   EXPECT_EQ(list.size(), 2u) << list.dump();
   EXPECT_TRUE(list.contains("real"));
   EXPECT_EQ(list["real"]["has_thumbnail"], false);
@@ -237,8 +237,8 @@ TEST(StudioLibrary, LinksOutAndForeignNamesAreNotFollowed) {
       200);
   EXPECT_EQ(ReadWholeFile(secret), ReadWholeFile(kHold + "/template.yaml"));
   EXPECT_FALSE(fs::is_symlink(folder / "link.yaml"));
-  const Json clips = studio.Get("/api/clips").json;
-  for (const Json& clip : clips["files"]) {
+  const report::Json clips = studio.Get("/api/clips").json;
+  for (const report::Json& clip : clips["files"]) {
     EXPECT_NE(clip["id"], "linked.bvh");
   }
   EXPECT_FALSE(fs::exists(outside / "out.yaml"));
@@ -249,7 +249,7 @@ TEST(StudioLibrary, PhotosGoWithTheirTemplate) {
   const std::string start = folder.Write("start.jpg", kJpeg);
   fs::create_directory(folder / "library");
   Studio studio({"--library", folder / "library", "--photo", start});
-  const Json opened = studio.Post("/api/session", Json::object()).json;
+  const report::Json opened = studio.Post("/api/session", report::Json::object()).json;
   const std::string session = opened["session"], photo = "/api/photo?session=" + session;
   EXPECT_EQ(opened["start"]["photo"], true);
   EXPECT_EQ(studio.Get(photo).body, kJpeg);
@@ -257,7 +257,7 @@ TEST(StudioLibrary, PhotosGoWithTheirTemplate) {
             "image/jpeg");
   ASSERT_EQ(studio.Post("/api/save", {{"session", session}, {"as", "posed"}}).status, 200);
   EXPECT_EQ(ReadWholeFile(folder / "library/posed.photo.jpg"), kJpeg);
-  EXPECT_EQ(ReadTemplate(folder / "library/posed.yaml").photo->file, "posed.photo.jpg");
+  EXPECT_EQ(io::ReadTemplate(folder / "library/posed.yaml").photo->file, "posed.photo.jpg");
 
   // Another picture, taken back and done again.
   EXPECT_EQ(studio.PostBytes(photo, kPng).status, 200);
@@ -270,7 +270,7 @@ TEST(StudioLibrary, PhotosGoWithTheirTemplate) {
   EXPECT_EQ(ReadWholeFile(folder / "library/posed.photo.png"), kPng);
 
   ASSERT_EQ(studio.Post("/api/duplicate", {{"id", "posed"}, {"as", "twin"}}).status, 200);
-  EXPECT_EQ(ReadTemplate(folder / "library/twin.yaml").photo->file, "twin.photo.png");
+  EXPECT_EQ(io::ReadTemplate(folder / "library/twin.yaml").photo->file, "twin.photo.png");
   ASSERT_EQ(studio.Post("/api/delete", {{"id", "posed"}}).status, 200);
   const std::string other = studio.Open();
   ASSERT_EQ(studio.Post("/api/load", {{"session", other}, {"template", "twin"}}).status, 200);
@@ -280,9 +280,9 @@ TEST(StudioLibrary, PhotosGoWithTheirTemplate) {
 
   // A template that names a file elsewhere gets no picture from there.
   for (const std::string& name : {std::string("../start.jpg"), start}) {
-    TemplatePosture posture = ReadTemplate(kHold + "/template.yaml");
+    TemplatePosture posture = io::ReadTemplate(kHold + "/template.yaml");
     posture.photo = TemplatePhoto{name, 0.5, 1, Eigen::Vector2d::Zero()};
-    std::ofstream(folder / "library/thief.yaml") << FormatTemplate(posture);
+    std::ofstream(folder / "library/thief.yaml") << io::FormatTemplate(posture);
     studio.Post("/api/load", {{"session", other}, {"template", "thief"}});
     EXPECT_EQ(studio.Get("/api/photo?session=" + other).status, 404) << name;
     const auto saved = studio.Post("/api/save", {{"session", other}});
@@ -297,7 +297,7 @@ TEST(StudioLibrary, ATemplateFromElsewhereIsSavedWhereItIs) {
   const std::string session = studio.Open();
   studio.Do(session, {{{"op", "set_name"}, {"name", "changed"}}});
   ASSERT_EQ(studio.Post("/api/save", {{"session", session}}).json["id"], "mine");
-  EXPECT_EQ(ReadTemplate(elsewhere / "mine.yaml").name, "changed");
+  EXPECT_EQ(io::ReadTemplate(elsewhere / "mine.yaml").name, "changed");
   EXPECT_TRUE(List(&studio).contains("mine"));
   // After an undo past a load, saving does not write into the other's file.
   studio.Post("/api/load", {{"session", session}, {"template", "bear_hug"}});
@@ -307,4 +307,4 @@ TEST(StudioLibrary, ATemplateFromElsewhereIsSavedWhereItIs) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::studio

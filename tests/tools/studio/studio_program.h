@@ -12,7 +12,7 @@
 
 #include "tests/tools/run_program.h"
 
-namespace retarget {
+namespace retarget::studio {
 
 using Json = nlohmann::ordered_json;
 
@@ -123,4 +123,4 @@ inline void ExpectRefusal(const Studio::Reply& reply, int status, const std::str
   EXPECT_NE(error.find(words), std::string::npos) << error;
 }
 
-}  // namespace retarget
+}  // namespace retarget::studio

@@ -4,8 +4,9 @@
 #include <random>
 
 #include "tests/tools/studio/studio_program.h"
+#include "tools/report/report.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 TEST(StudioSafety, TheTokenHostAndOriginAreAsked) {
@@ -117,7 +118,7 @@ TEST(StudioSafety, BodiesAreLimited) {
 TEST(StudioSafety, BadMessagesAreRefusedInOneSentenceAndChangeNothing) {
   Studio studio;
   const std::string session = studio.Open();
-  const Json before = studio.Get("/api/state?session=" + session).json;
+  const report::Json before = studio.Get("/api/state?session=" + session).json;
   const std::string head = R"({"session":")" + session + R"(","ops":[)";
   const struct {
     std::string body, words;
@@ -323,4 +324,4 @@ TEST(StudioSafety, DamagedMessagesNeverReachAnInternalError) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::studio

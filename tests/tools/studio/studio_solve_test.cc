@@ -2,14 +2,15 @@
 #include <thread>
 
 #include "tests/tools/studio/studio_program.h"
+#include "tools/report/report.h"
 #include "tools/studio/child_process.h"
 
-namespace retarget {
+namespace retarget::studio {
 namespace {
 
 struct SentEvent {
   std::string name;
-  Json data;
+  report::Json data;
 };
 
 // The events of a job, until it is over or `until` has seen enough.
@@ -29,7 +30,7 @@ std::vector<SentEvent> Events(Studio* studio, const std::string& job,
       SentEvent event;
       for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("event: ")) event.name = line.substr(7);
-        if (line.starts_with("data: ")) event.data = Json::parse(line.substr(6));
+        if (line.starts_with("data: ")) event.data = report::Json::parse(line.substr(6));
       }
       if (event.name.empty()) continue;
       events.push_back(event);
@@ -40,7 +41,7 @@ std::vector<SentEvent> Events(Studio* studio, const std::string& job,
   return events;
 }
 
-Json Request(const std::string& session) {
+report::Json Request(const std::string& session) {
   return {{"session", session},
           {"clip_a", "bear_hug/a.bvh"},
           {"clip_b", "bear_hug/b.bvh"},
@@ -48,7 +49,7 @@ Json Request(const std::string& session) {
           {"settings", {{"solve.start", "template"}}}};
 }
 
-std::string Start(Studio* studio, const Json& request) {
+std::string Start(Studio* studio, const report::Json& request) {
   const auto reply = studio->Post("/api/solve", request);
   EXPECT_EQ(reply.status, 200) << reply.body;
   return reply.json.value("job", "");
@@ -83,8 +84,8 @@ TEST(StudioSolve, IsWatchedToItsReport) {
   EXPECT_FALSE(done.data["requirements"].empty());
   EXPECT_NE(studio.Get("/api/solve/report?job=" + job).body.find("<html"), std::string::npos);
   EXPECT_EQ(studio.Get("/api/solve/file?job=" + job + "&name=scene.glb").body.substr(0, 4), "glTF");
-  const Json report =
-      Json::parse(studio.Get("/api/solve/file?job=" + job + "&name=report.json").body);
+  const report::Json report =
+      report::Json::parse(studio.Get("/api/solve/file?job=" + job + "&name=report.json").body);
   EXPECT_EQ(report["frames"], 30);
   EXPECT_EQ(report["requirements"], done.data["requirements"]);
   for (const char* name : {"../bear_hug_from_behind.yaml", "..", ".", "/etc/passwd", "", "no"}) {
@@ -100,7 +101,7 @@ TEST(StudioSolve, IsWatchedToItsReport) {
 TEST(StudioSolve, CanBeStoppedAtAnyTime) {
   Studio studio;
   const std::string session = OpenHug(&studio);
-  Json request = Request(session);
+  report::Json request = Request(session);
   request["settings"] = {{"solve.polish_decrease", 1e-12}};
   // Before anything: at once, without a result.
   std::string job = Start(&studio, request);
@@ -124,7 +125,7 @@ TEST(StudioSolve, BadInputIsOneSentence) {
   folder.Write("broken.bvh", "HIERARCHY\nROOT");
   Studio studio({"--library", folder / ""});
   const std::string session = studio.Open();
-  Json request = Request(session);
+  report::Json request = Request(session);
   request["clip_a"] = "broken.bvh";
   const std::string job = Start(&studio, request);
   const SentEvent last = Events(&studio, job).back();
@@ -164,4 +165,4 @@ TEST(StudioSolve, NothingIsLeftBehind) {
 }
 
 }  // namespace
-}  // namespace retarget
+}  // namespace retarget::studio
