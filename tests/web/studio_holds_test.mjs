@@ -1,10 +1,19 @@
 // Three of the shipped holds, made from an empty scene with nothing but the studio's page:
 //   node studio_holds_test.mjs RETARGET HOLDS
-// Each HOLDS/NAME/pose.sh lists the operations that made the template; here the page sends them, and
-// saves. Skips as studio_page_test.mjs does. RETARGET_STUDIO_PICTURES: a folder for a picture each.
+// Each HOLDS/NAME/pose.sh lists the operations that made the template; here the page sends them,
+// and saves. Skips as studio_page_test.mjs does. RETARGET_STUDIO_PICTURES: a folder for a picture
+// each.
 import assert from "node:assert/strict";
 import { execFileSync, spawn, spawnSync } from "node:child_process";
-import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import {
+  chmodSync,
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  rmSync,
+  writeFileSync,
+} from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -48,7 +57,12 @@ before(async () => {
   });
   browser = await chromium.launch({
     executablePath: chromiumPath,
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: [
+      "--no-sandbox",
+      "--use-gl=angle",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+    ],
   });
 });
 after(async () => {
@@ -58,14 +72,16 @@ after(async () => {
   rmSync(scratch, { recursive: true });
 });
 
-// -- What a script says, as the page says it ---------------------------------------------------------
+// -- What a script says, as the page says it ------------------------------------------------------
 
 // The words that pose.sh gives to `retarget pose`, told by a program that does nothing else.
 function wordsOf(hold) {
   const echo = join(scratch, "echo.sh");
   writeFileSync(echo, "#!/bin/sh\nprintf '%s\\0' \"$@\"\n");
   chmodSync(echo, 0o755);
-  const said = execFileSync("sh", [join(holds, hold, "pose.sh"), echo, "unused"], { encoding: "utf8" });
+  const said = execFileSync("sh", [join(holds, hold, "pose.sh"), echo, "unused"], {
+    encoding: "utf8",
+  });
   return said.split("\0").slice(1, -1);
 }
 
@@ -97,7 +113,11 @@ const operations = {
   },
   turn: (v) => {
     const n = numbers(v.slice(2));
-    return { op: "turn_figure", figure: v[0], rotation: quaternion(n.length === 1 ? [0, n[0], 0] : n) };
+    return {
+      op: "turn_figure",
+      figure: v[0],
+      rotation: quaternion(n.length === 1 ? [0, n[0], 0] : n),
+    };
   },
   move: (v) => ({ op: "move_figure", figure: v[0], shift: numbers(v.slice(2)) }),
   rotate: (v) => {
@@ -105,7 +125,11 @@ const operations = {
     const [figure, joint] = halves(to, "/");
     const parts = value.split(",");
     return {
-      op: "rotate_joint", figure, joint, rotation: quaternion(parts.slice(0, 3).map(Number)), world: parts[3] === "world",
+      op: "rotate_joint",
+      figure,
+      joint,
+      rotation: quaternion(parts.slice(0, 3).map(Number)),
+      world: parts[3] === "world",
     };
   },
   drag: (v) => {
@@ -140,7 +164,7 @@ function* steps(words) {
   }
 }
 
-// -- The page ----------------------------------------------------------------------------------------
+// -- The page -------------------------------------------------------------------------------------
 
 // A page of its own for every hold: nothing is left of the one before.
 async function open() {

@@ -2,7 +2,8 @@
 //   node studio_page_test.mjs RETARGET HOLD
 // HOLD is a folder with template.yaml, a.bvh and b.bvh. Exit code 77 where the program has no
 // studio, or Chromium (RETARGET_CHROMIUM, else /usr/bin/chromium) or playwright-core (in
-// RETARGET_NODE_MODULES) is not there. One page is used throughout: the tests are one person's work.
+// RETARGET_NODE_MODULES) is not there. One page is used throughout: the tests are one person's
+// work.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";
@@ -10,8 +11,27 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { picture } from "./png.mjs";
 import {
-  at, click, distance, drag, fromRest, hold, idle, library, nodes, noise, page, place, posture, press,
-  program, restart, scaleOf, state, tab, ui, until,
+  at,
+  click,
+  distance,
+  drag,
+  fromRest,
+  hold,
+  idle,
+  library,
+  nodes,
+  noise,
+  page,
+  place,
+  posture,
+  press,
+  program,
+  restart,
+  scaleOf,
+  state,
+  tab,
+  ui,
+  until,
 } from "./studio_person.mjs";
 
 test("opens with the template that was named", async () => {

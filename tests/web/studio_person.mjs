@@ -105,7 +105,7 @@ export async function until(holds, argument) {
   throw new Error(`never came true: ${holds}`);
 }
 
-// -- A person's hands ------------------------------------------------------------------------------
+// -- A person's hands -----------------------------------------------------------------------------
 
 export const idle = () => page.evaluate(() => window.retargetStudio.idle());
 export const state = async () => {

@@ -86,7 +86,9 @@ export function limitOf(report: Report, name: string, otherwise: number): number
 
 // Largest of several series, frame by frame.
 export function largest(rows: number[][], frames: number): number[] {
-  return Array.from({ length: frames }, (_, t) => rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0));
+  return Array.from({ length: frames }, (_, t) =>
+    rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0),
+  );
 }
 
 export const words = (name: string) => name.replace(/_/g, " ");

@@ -22,7 +22,9 @@ export class Marks {
   private readonly ball = new Group();
 
   constructor(
-    private readonly figures: FigureScene, private readonly series: Series, report: Report,
+    private readonly figures: FigureScene,
+    private readonly series: Series,
+    report: Report,
   ) {
     const geometry = new RingGeometry(0.055, 0.085, 24).rotateX(-Math.PI / 2);
     const material = new MeshBasicMaterial({ color: okabeIto.green });
@@ -34,10 +36,17 @@ export class Marks {
       }
     }
     // Seen through the bodies: the place is inside of them.
-    const seen = (opacity: number) => new MeshBasicMaterial(
-      { color: okabeIto.vermilion, transparent: true, opacity, depthTest: false });
-    this.ball.add(new Mesh(new SphereGeometry(1, 20, 12), seen(0.35)),
-      new Mesh(new SphereGeometry(0.5, 20, 12), seen(0.95)));
+    const seen = (opacity: number) =>
+      new MeshBasicMaterial({
+        color: okabeIto.vermilion,
+        transparent: true,
+        opacity,
+        depthTest: false,
+      });
+    this.ball.add(
+      new Mesh(new SphereGeometry(1, 20, 12), seen(0.35)),
+      new Mesh(new SphereGeometry(0.5, 20, 12), seen(0.95)),
+    );
     figures.scene.add(this.ball);
   }
 
@@ -54,8 +63,14 @@ export class Marks {
     if (!pair || !this.ball.visible) return;
     const [a, b] = pair.map(findNode);
     const point = (figure: "a" | "b", node: number) => this.figures.point(figure, node);
-    this.ball.position.copy(middleOfClosest(
-      point("a", parentOf[a]), point("a", a), point("b", parentOf[b]), point("b", b)));
+    this.ball.position.copy(
+      middleOfClosest(
+        point("a", parentOf[a]),
+        point("a", a),
+        point("b", parentOf[b]),
+        point("b", b),
+      ),
+    );
     this.ball.scale.setScalar(0.035 + 0.01 * Math.min(depth, 10));
   }
 }

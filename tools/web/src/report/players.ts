@@ -9,7 +9,13 @@ import { isDark, onThemeChange } from "../shared/theme";
 import { Viewer } from "../shared/viewer";
 import type { Clock } from "./clock";
 import {
-  readScene, variantMeaning, variants, variantTitle, type AllSeries, type Report, type Series,
+  readScene,
+  variantMeaning,
+  variants,
+  variantTitle,
+  type AllSeries,
+  type Report,
+  type Series,
   type Variant,
 } from "./data";
 import { Marks } from "./marks";
@@ -41,8 +47,10 @@ export class Players {
   private readonly tags: Tag[];
 
   constructor(
-    private readonly container: HTMLElement, private readonly report: Report,
-    private readonly series: AllSeries, private readonly clock: Clock,
+    private readonly container: HTMLElement,
+    private readonly report: Report,
+    private readonly series: AllSeries,
+    private readonly clock: Clock,
   ) {
     this.tags = report.tangles.map(({ a, b, template_gli }) => ({
       a: pathSigns(findNode(a[0]), findNode(a[1])),
@@ -56,7 +64,13 @@ export class Players {
 
   private makePanel(variant: Variant): Player {
     const readout = element("p", { class: "readout" });
-    const title = element("h2", {}, variantTitle[variant], " ", element("small", {}, variantMeaning[variant]));
+    const title = element(
+      "h2",
+      {},
+      variantTitle[variant],
+      " ",
+      element("small", {}, variantMeaning[variant]),
+    );
     const panel = element("div", { class: "panel", "data-variant": variant }, title, readout);
     this.container.append(panel);
     return { variant, panel, readout, series: this.series[variant], figures: null, marks: null };
@@ -73,9 +87,14 @@ export class Players {
       this.viewer = new Viewer(this.container);
     } catch {
       document.documentElement.classList.add("no-webgl");
-      this.container.prepend(element("p", { class: "absent" },
-        "This browser offers no WebGL, so there are no players here. Plots and tables below are " +
-        "complete, and scene.glb opens in any glTF viewer."));
+      this.container.prepend(
+        element(
+          "p",
+          { class: "absent" },
+          "This browser offers no WebGL, so there are no players here. Plots and tables below are " +
+            "complete, and scene.glb opens in any glTF viewer.",
+        ),
+      );
       this.refresh();
       return;
     }
@@ -83,8 +102,10 @@ export class Players {
     for (const player of this.players) {
       const bytes = readScene(player.variant);
       if (!bytes || !player.series) {
-        this.say(player, this.report.simulation?.message ??
-          "This run has no simulated baseline to compare with.");
+        this.say(
+          player,
+          this.report.simulation?.message ?? "This run has no simulated baseline to compare with.",
+        );
         continue;
       }
       player.figures = await FigureScene.load(bytes);
@@ -119,10 +140,12 @@ export class Players {
     const item = (text: string, bad: boolean) =>
       readout.append(element("span", { class: bad ? "bad" : "good" }, text));
     if (series.tangles.length > 0) {
-      item(lost.length === 0
-        ? "tangled"
-        : `lost: ${lost.map((k) => `tag ${k + 1} (${series.tangles[k][t].toFixed(2)})`).join(", ")}`,
-        lost.length > 0);
+      item(
+        lost.length === 0
+          ? "tangled"
+          : `lost: ${lost.map((k) => `tag ${k + 1} (${series.tangles[k][t].toFixed(2)})`).join(", ")}`,
+        lost.length > 0,
+      );
     }
     const depth = series.penetration_cm[t];
     if (depth > 0.05) item(`${depth.toFixed(1)} cm inside`, depth > 2);
@@ -150,7 +173,9 @@ export class Players {
 
   private paint(figures: FigureScene): void {
     const dim = rgbOf(isDark() ? "#3A424C" : "#C9CFD6");
-    const values = this.heatMap ? heat(gliTable(figures.positions("a"), figures.positions("b"))) : null;
+    const values = this.heatMap
+      ? heat(gliTable(figures.positions("a"), figures.positions("b")))
+      : null;
     figureNames.forEach((figure, f) => {
       const plain = rgbOf(figureColour[figure]);
       const colours: Rgb[] = [];

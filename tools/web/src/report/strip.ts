@@ -19,12 +19,18 @@ function roundUp(most: number): number {
 
 export class TrackingStrip {
   private shown: Edited = "result";
-  private readonly canvases: { figure: "a" | "b"; canvas: HTMLCanvasElement; playhead: HTMLElement }[];
+  private readonly canvases: {
+    figure: "a" | "b";
+    canvas: HTMLCanvasElement;
+    playhead: HTMLElement;
+  }[];
   private readonly note = element("small");
   private readonly scale = element("span", { class: "legend" });
 
   constructor(
-    container: HTMLElement, private readonly series: AllSeries, private readonly clock: Clock,
+    container: HTMLElement,
+    private readonly series: AllSeries,
+    private readonly clock: Clock,
   ) {
     this.canvases = (["a", "b"] as const).map((figure) => ({
       figure,
@@ -32,12 +38,32 @@ export class TrackingStrip {
       playhead: element("i", { class: "playhead" }),
     }));
     const strips = this.canvases.map(({ figure, canvas, playhead }) =>
-      element("div", { class: "strip" }, element("h4", { class: `figure-${figure}` }, figure), canvas, playhead));
-    container.append(element("figure", { class: "plot wide", "data-plot": "Tracking error" },
-      element("figcaption", {},
-        element("h3", {}, "Tracking error ", element("small", {}, "degrees from the source, by joint and frame")),
-        element("p", { class: "key" }, this.choice(), this.scale, this.note)),
-      element("div", { class: "strips" }, ...strips)));
+      element(
+        "div",
+        { class: "strip" },
+        element("h4", { class: `figure-${figure}` }, figure),
+        canvas,
+        playhead,
+      ),
+    );
+    container.append(
+      element(
+        "figure",
+        { class: "plot wide", "data-plot": "Tracking error" },
+        element(
+          "figcaption",
+          {},
+          element(
+            "h3",
+            {},
+            "Tracking error ",
+            element("small", {}, "degrees from the source, by joint and frame"),
+          ),
+          element("p", { class: "key" }, this.choice(), this.scale, this.note),
+        ),
+        element("div", { class: "strips" }, ...strips),
+      ),
+    );
     for (const strip of this.canvases) this.watch(strip);
     clock.onChange(() => this.placePlayheads());
     onThemeChange(() => this.draw());
@@ -49,7 +75,11 @@ export class TrackingStrip {
   }
 
   private choice(): HTMLElement {
-    const group = element("span", { class: "group", role: "radiogroup", "aria-label": "tracking error of" });
+    const group = element("span", {
+      class: "group",
+      role: "radiogroup",
+      "aria-label": "tracking error of",
+    });
     for (const variant of ["baseline", "result"] as const) {
       if (!this.series[variant]?.tracking_deg) continue;
       const radio = element("input", { type: "radio", name: "tracking" });
@@ -70,8 +100,14 @@ export class TrackingStrip {
     const at = (event: PointerEvent) => {
       const box = canvas.getBoundingClientRect();
       const part = (event.clientX - box.left - kNames) / (box.width - kNames - kRight);
-      const frame = Math.min(this.clock.frames - 1, Math.max(0, Math.floor(part * this.clock.frames)));
-      const joint = Math.min(joints.length - 1, Math.max(0, Math.floor((event.clientY - box.top) / kRow)));
+      const frame = Math.min(
+        this.clock.frames - 1,
+        Math.max(0, Math.floor(part * this.clock.frames)),
+      );
+      const joint = Math.min(
+        joints.length - 1,
+        Math.max(0, Math.floor((event.clientY - box.top) / kRow)),
+      );
       return { frame, joint };
     };
     canvas.addEventListener("pointerdown", (event) => {
@@ -94,8 +130,11 @@ export class TrackingStrip {
       return tracking ? [...tracking.a.values, ...tracking.b.values] : [];
     });
     const most = roundUp(all.reduce((m, row) => row.reduce((n, x) => Math.max(n, x), m), 0));
-    this.scale.replaceChildren("0°",
-      element("i", { style: `background:linear-gradient(90deg,${stops.map(cssOf).join(",")})` }), `${most}°`);
+    this.scale.replaceChildren(
+      "0°",
+      element("i", { style: `background:linear-gradient(90deg,${stops.map(cssOf).join(",")})` }),
+      `${most}°`,
+    );
     for (const { figure, canvas } of this.canvases) {
       const { joints, values } = this.tracking[figure];
       const context = fitCanvas(canvas);
@@ -106,7 +145,9 @@ export class TrackingStrip {
       context.font = "11px system-ui, sans-serif";
       context.textAlign = "right";
       context.textBaseline = "middle";
-      joints.forEach((name, k) => context.fillText(words(name), kNames - 6, (k + 0.5) * kRow, kNames - 8));
+      joints.forEach((name, k) =>
+        context.fillText(words(name), kNames - 6, (k + 0.5) * kRow, kNames - 8),
+      );
     }
     this.placePlayheads();
   }
@@ -119,10 +160,12 @@ export class TrackingStrip {
     canvas.height = values.length;
     const context = canvas.getContext("2d")!;
     const pixels = context.createImageData(canvas.width, canvas.height);
-    values.forEach((row, joint) => row.forEach((value, t) => {
-      const [r, g, b] = ramp(stops, value / most);
-      pixels.data.set([255 * r, 255 * g, 255 * b, 255], 4 * (joint * canvas.width + t));
-    }));
+    values.forEach((row, joint) =>
+      row.forEach((value, t) => {
+        const [r, g, b] = ramp(stops, value / most);
+        pixels.data.set([255 * r, 255 * g, 255 * b, 255], 4 * (joint * canvas.width + t));
+      }),
+    );
     context.putImageData(pixels, 0, 0);
     return canvas;
   }
