@@ -4,7 +4,8 @@ import { Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry } from "th
 import { findNode, parentOf } from "../shared/body";
 import { middleOfClosest } from "../shared/closest";
 import { okabeIto } from "../shared/colours";
-import { figureNames, type FigureScene } from "../shared/figure_scene";
+import type { FigureScene } from "../shared/figure_scene";
+import { figureNames, type FigureName } from "../shared/names";
 import type { Report, Series } from "./data";
 
 const kShownFrom = 0.05; // cm; less is numerical contact
@@ -12,7 +13,7 @@ const kShownFrom = 0.05; // cm; less is numerical contact
 interface Contact {
   first: number;
   last: number;
-  figure: "a" | "b";
+  figure: FigureName;
   node: number;
   disc: Mesh;
 }
@@ -62,7 +63,7 @@ export class Marks {
     this.ball.visible = pair != null && depth > kShownFrom;
     if (!pair || !this.ball.visible) return;
     const [a, b] = pair.map(findNode);
-    const point = (figure: "a" | "b", node: number) => this.figures.point(figure, node);
+    const point = (figure: FigureName, node: number) => this.figures.point(figure, node);
     this.ball.position.copy(
       middleOfClosest(
         point("a", parentOf[a]),

@@ -1,11 +1,12 @@
 // Three players side by side: source, simulated baseline, result.
 
-import { findNode, numSegments, pathSigns } from "../shared/body";
-import { figureColour, heatStops, mix, ramp, rgbOf, type Rgb } from "../shared/colours";
+import { findNode, pathSigns } from "../shared/body";
 import { element } from "../shared/dom";
-import { figureNames, FigureScene } from "../shared/figure_scene";
-import { gliTable, heat, pathGli } from "../shared/gli";
-import { isDark, onThemeChange } from "../shared/theme";
+import { FigureScene } from "../shared/figure_scene";
+import { gliTable, heat, kTangled, pathGli } from "../shared/gli";
+import { limbColours } from "../shared/limb_colours";
+import { figureNames } from "../shared/names";
+import { onThemeChange } from "../shared/theme";
 import { Viewer } from "../shared/viewer";
 import type { Clock } from "./clock";
 import {
@@ -19,8 +20,6 @@ import {
   type Variant,
 } from "./data";
 import { Marks } from "./marks";
-
-export const kHeatFull = 0.5; // turns at the end of the colour scale
 
 interface Player {
   variant: Variant;
@@ -136,7 +135,7 @@ export class Players {
     readout.replaceChildren();
     if (!series) return;
     const t = this.clock.frame;
-    const lost = series.tangles.flatMap((tag, k) => (tag[t] > 0.5 ? [] : [k]));
+    const lost = series.tangles.flatMap((tag, k) => (tag[t] > kTangled ? [] : [k]));
     const item = (text: string, bad: boolean) =>
       readout.append(element("span", { class: bad ? "bad" : "good" }, text));
     if (series.tangles.length > 0) {
@@ -172,21 +171,13 @@ export class Players {
   }
 
   private paint(figures: FigureScene): void {
-    const dim = rgbOf(isDark() ? "#3A424C" : "#C9CFD6");
     const values = this.heatMap
       ? heat(gliTable(figures.positions("a"), figures.positions("b")))
       : null;
+    const tag = this.shownTag === null ? null : this.tags[this.shownTag];
     figureNames.forEach((figure, f) => {
-      const plain = rgbOf(figureColour[figure]);
-      const colours: Rgb[] = [];
-      for (let s = 0; s < numSegments; ++s) {
-        let colour = values ? ramp(heatStops[figure], values[f][s] / kHeatFull) : plain;
-        if (this.shownTag !== null && this.tags[this.shownTag][figure][s] === 0) {
-          colour = mix(colour, dim, 0.9);
-        }
-        colours.push(colour);
-      }
-      figures.paint(figure, colours);
+      const off = (s: number) => tag !== null && tag[figure][s] === 0;
+      figures.paint(figure, limbColours(figure, values && values[f], off, 0.9));
     });
   }
 

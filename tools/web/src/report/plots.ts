@@ -1,5 +1,7 @@
 // Which plots the report shows, and of what.
 
+import { kTangled } from "../shared/gli";
+import { words } from "../shared/names";
 import { addPlot, type Line } from "./plot";
 import type { Clock } from "./clock";
 import {
@@ -7,7 +9,6 @@ import {
   limitOf,
   variants,
   variantTitle,
-  words,
   type AllSeries,
   type Report,
   type Series,
@@ -56,7 +57,7 @@ export function addPlots(
       unit: `turns; a ${words(a[0])} … ${words(a[1])} × b ${words(b[0])} … ${words(b[1])}`,
       lines: linesOf(series, (s) => s.tangles[k]),
       digits: 2,
-      limit: { value: limitOf(report, `tangle ${k + 1}`, 0.5), text: "lost below" },
+      limit: { value: limitOf(report, `tangle ${k + 1}`, kTangled), text: "lost below" },
       range: (least, most) => [Math.min(0, least * 1.1), Math.max(1.05, most * 1.05)],
       clock,
     });

@@ -3,9 +3,11 @@
 
 import { cssOf, ramp, sequential } from "../shared/colours";
 import { element, fitCanvas } from "../shared/dom";
+import { colourScale } from "../shared/legend";
+import { figureNames, words, type FigureName } from "../shared/names";
 import { isDark, onThemeChange, themeColour } from "../shared/theme";
 import type { Clock } from "./clock";
-import { variantTitle, words, type AllSeries } from "./data";
+import { variantTitle, type AllSeries } from "./data";
 
 const kRow = 13; // px
 const kNames = 92; // px for the joints' names
@@ -20,7 +22,7 @@ function roundUp(most: number): number {
 export class TrackingStrip {
   private shown: Edited = "result";
   private readonly canvases: {
-    figure: "a" | "b";
+    figure: FigureName;
     canvas: HTMLCanvasElement;
     playhead: HTMLElement;
   }[];
@@ -32,7 +34,7 @@ export class TrackingStrip {
     private readonly series: AllSeries,
     private readonly clock: Clock,
   ) {
-    this.canvases = (["a", "b"] as const).map((figure) => ({
+    this.canvases = figureNames.map((figure) => ({
       figure,
       canvas: element("canvas", { role: "img", "aria-label": `tracking error of ${figure}` }),
       playhead: element("i", { class: "playhead" }),
@@ -93,7 +95,7 @@ export class TrackingStrip {
     return group;
   }
 
-  private watch({ figure, canvas }: { figure: "a" | "b"; canvas: HTMLCanvasElement }): void {
+  private watch({ figure, canvas }: { figure: FigureName; canvas: HTMLCanvasElement }): void {
     const { joints } = this.tracking[figure];
     canvas.style.height = `${joints.length * kRow}px`;
     new ResizeObserver(() => this.draw()).observe(canvas);
@@ -130,11 +132,7 @@ export class TrackingStrip {
       return tracking ? [...tracking.a.values, ...tracking.b.values] : [];
     });
     const most = roundUp(all.reduce((m, row) => row.reduce((n, x) => Math.max(n, x), m), 0));
-    this.scale.replaceChildren(
-      "0°",
-      element("i", { style: `background:linear-gradient(90deg,${stops.map(cssOf).join(",")})` }),
-      `${most}°`,
-    );
+    this.scale.replaceChildren(...colourScale("0°", stops.map(cssOf), `${most}°`));
     for (const { figure, canvas } of this.canvases) {
       const { joints, values } = this.tracking[figure];
       const context = fitCanvas(canvas);

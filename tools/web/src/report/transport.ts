@@ -1,13 +1,15 @@
 // The bar under the players: play, step, speed, loop, views, heat map, tags, and the scrub bar with
 // what happens when.
 
-import { cssOf, heatStops, ramp } from "../shared/colours";
 import { element, fitCanvas } from "../shared/dom";
+import { kTangled } from "../shared/gli";
+import { heatScale } from "../shared/legend";
+import { words } from "../shared/names";
 import { onThemeChange, themeColour } from "../shared/theme";
 import { views, type View } from "../shared/viewer";
 import type { Clock } from "./clock";
-import { variants, variantTitle, words, type AllSeries, type Report } from "./data";
-import { kHeatFull, type Players } from "./players";
+import { variants, variantTitle, type AllSeries, type Report } from "./data";
+import type { Players } from "./players";
 
 const kThumb = 12; // px, as in the style sheet
 const kRow = 9; // px per variant in the track
@@ -128,13 +130,10 @@ export class Transport {
   }
 
   private makeLegend(): HTMLElement {
-    const stops = [0, 1, 2, 3, 4].map((k) => cssOf(ramp(heatStops.a, k / 4))).join(",");
     const legend = element(
       "span",
       { class: "legend", title: "sum of |GLI| over the other body's segments" },
-      "0",
-      element("i", { style: `background:linear-gradient(90deg,${stops})` }),
-      `${kHeatFull} turns`,
+      ...heatScale(),
     );
     legend.hidden = true;
     return legend;
@@ -213,7 +212,7 @@ export class Transport {
         context.fillRect(x(0), top + 1, width, kRow - 2);
         context.fillStyle = themeColour("--bad");
         for (let t = 0; t < frames; ++t) {
-          if (series.tangles.some((tag) => tag[t] <= 0.5)) {
+          if (series.tangles.some((tag) => tag[t] <= kTangled)) {
             const left = Math.max(x(0), x(t) - cell / 2);
             context.fillRect(
               left,

@@ -1,6 +1,6 @@
 // Small helpers for making elements.
 
-type Child = Node | string;
+export type Child = Node | string;
 
 export function element<K extends keyof HTMLElementTagNameMap>(
   tag: K,

@@ -18,10 +18,8 @@ import {
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { nodeNames, numNodes, numSegments } from "./body";
 import type { Rgb } from "./colours";
+import { figureNames, type FigureName, type PerFigure } from "./names";
 import { shadowMaterial } from "./surroundings";
-
-export type FigureName = "a" | "b";
-export const figureNames: FigureName[] = ["a", "b"];
 
 // The file's mesh is one capsule per segment in node order, then the nose, each of as many
 // vertices.
@@ -46,7 +44,7 @@ export class FigureScene {
   readonly scene = new Scene();
   readonly duration: number; // s
   private readonly nodes = new Map<string, Object3D>();
-  private readonly figures: Record<FigureName, Figure>;
+  private readonly figures: PerFigure<Figure>;
   private readonly mixer: AnimationMixer;
   private readonly shadow = shadowMaterial();
 

@@ -4,6 +4,9 @@
 
 import { numSegments, parentOf } from "./body";
 
+// Turns from which two paths are tangled (ibid., section 4.2).
+export const kTangled = 0.5;
+
 // Node positions of one body: x, y, z of each node in order. [3 x nodes] (m)
 export type NodePositions = ArrayLike<number>;
 

@@ -2,7 +2,7 @@
 // solver/terms/joint_limit.cc: R = swing * twist about the bone's direction in the rest pose.
 
 import { MathUtils, Quaternion, Vector3 } from "three";
-import type { FigureName } from "../shared/figure_scene";
+import type { FigureName } from "../shared/names";
 import { themeColour } from "../shared/theme";
 import type { Limits, Vec } from "./protocol";
 import type { Store } from "./store";

@@ -1,7 +1,7 @@
 // What the page shows: the server's state as it came last, and what only the page knows. Everybody
 // reads it; the state changes by replies of the server alone.
 
-import type { FigureName } from "../shared/figure_scene";
+import type { FigureName, PerFigure } from "../shared/names";
 import type { Body, Reply, Result, Start, State, Tangle, Vec } from "./protocol";
 
 export interface Pick {
@@ -20,7 +20,7 @@ export interface Ui {
   hovered: Pick | null;
   worldAxes: boolean;
   turning: boolean; // the move tool turns instead
-  shown: Record<FigureName, Shown>;
+  shown: PerFigure<Shown>;
   heat: boolean;
   solid: number; // opacity of the figures over a photo
   sideViews: boolean;
