@@ -2,37 +2,19 @@
 //   node gli_test.mjs SHARED_DIR WEB_BUILD
 // Exit code 77 where the reference data or the pages' tools are not there.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
+import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { pathToFileURL } from "node:url";
+import { canBundle, modulesOf } from "./bundle.mjs";
 
 const [shared, build] = process.argv.slice(2);
 const golden = (name) => JSON.parse(readFileSync(join(shared, "golden", name), "utf8"));
-if (
-  !existsSync(join(shared, "golden", "segment_pairs.json")) ||
-  !existsSync(join(build, "node_modules"))
-) {
+if (!existsSync(join(shared, "golden", "segment_pairs.json")) || !canBundle(build)) {
   console.log(`skipped: no reference data at ${shared}, or no ${build}/node_modules`);
   process.exit(77);
 }
-const esbuild = createRequire(join(build, "here.js"))("esbuild");
-const bundle = join(build, "gli_for_test.mjs");
-writeFileSync(
-  bundle,
-  esbuild.buildSync({
-    stdin: {
-      contents: 'export * from "./src/shared/gli"; export * from "./src/shared/body";',
-      resolveDir: build,
-    },
-    bundle: true,
-    write: false,
-    format: "esm",
-  }).outputFiles[0].text,
-);
 const { findNode, gliTable, nodeNames, numSegments, parentOf, pathGli, pathSigns, segmentGli } =
-  await import(pathToFileURL(bundle));
+  await modulesOf(build, "gli_for_test", ["shared/gli", "shared/body"]);
 
 const ofPair = ({ a, b, c, d }) => segmentGli([...a, ...b], 0, 1, [...c, ...d], 0, 1);
 

@@ -4,7 +4,7 @@ import { Vector3 } from "three";
 import { cssOf, figureColour, mix, rgbOf } from "../shared/colours";
 import { figureNames } from "../shared/names";
 import { themeColour } from "../shared/theme";
-import { drawLimits } from "./limits";
+import { drawLimits } from "./limit_arcs";
 import { isOpen, stands } from "./measures";
 import { isBehind, isMinor, unit } from "./picking";
 import type { Vec } from "./protocol";

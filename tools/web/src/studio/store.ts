@@ -115,6 +115,9 @@ export class Store {
   place({ figure, node }: Pick): Vec {
     return this.state.figures[figure].nodes[node];
   }
+  jointCentre(figure: FigureName, link: number): Vec {
+    return this.state.figures[figure].centres[link];
+  }
 
   // The joint that a node stands for: the one at its place, else the one that carries it.
   jointOf({ figure, node }: Pick): number {
