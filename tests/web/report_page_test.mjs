@@ -5,34 +5,18 @@
 // playwright-core (in RETARGET_NODE_MODULES) is not there, or the page was built without players.
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
+import { launch, listen, skip } from "./browser.mjs";
 import { Glb } from "./glb.mjs";
 
 const folder = resolve(process.argv[2] ?? ".");
 const pagePath = join(folder, "report.html");
-const chromiumPath = process.env.RETARGET_CHROMIUM ?? "/usr/bin/chromium";
-
-function skip(reason) {
-  console.log(`skipped: ${reason}`);
-  process.exit(77);
-}
-function playwright() {
-  try {
-    const home = resolve(process.env.RETARGET_NODE_MODULES ?? "node_modules");
-    return createRequire(join(home, "here.js"))("playwright-core");
-  } catch (error) {
-    return skip(`playwright-core not found: ${error.message.split("\n")[0]}`);
-  }
-}
 if (!existsSync(pagePath)) skip(`no ${pagePath}`);
-if (!existsSync(chromiumPath)) skip(`no ${chromiumPath}`);
 const html = readFileSync(pagePath, "utf8");
 if (!html.includes('id="series"')) skip("the page was built without players");
-const { chromium } = playwright();
 
 const element = (id) =>
   new RegExp(`<script type="[^"]*" id="${id}">([^]*?)</script>`).exec(html)?.[1];
@@ -46,16 +30,10 @@ const glb = Object.fromEntries(
 const last = series.frames - 1;
 const some = [...new Set([0, 1, Math.floor(last / 3), Math.floor((2 * last) / 3), last])];
 
-const kSoftwareGl = [
-  "--no-sandbox",
-  "--use-gl=angle",
-  "--use-angle=swiftshader",
-  "--enable-unsafe-swiftshader",
-];
 let browser;
 const scratch = mkdtempSync(join(tmpdir(), "retarget-page-"));
 before(async () => {
-  browser = await chromium.launch({ executablePath: chromiumPath, args: kSoftwareGl });
+  browser = await launch();
 });
 after(async () => {
   await browser?.close();
@@ -66,8 +44,7 @@ after(async () => {
 async function open({ path = pagePath, from = browser, ...options } = {}) {
   const page = await from.newPage({ viewport: { width: 1280, height: 720 }, ...options });
   const noise = [];
-  page.on("console", (message) => noise.push(`${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => noise.push(`error: ${error.message}`));
+  listen(page, noise);
   page.on("request", (request) => {
     const url = request.url();
     if (url !== pathToFileURL(path).href && !url.startsWith("data:")) noise.push(`request: ${url}`);
@@ -293,10 +270,7 @@ test("without a baseline a sentence stands in its place", async () => {
 });
 
 test("without WebGL the plots and tables work and the page says so", async () => {
-  const plain = await chromium.launch({
-    executablePath: chromiumPath,
-    args: ["--no-sandbox", "--disable-3d-apis"],
-  });
+  const plain = await launch(["--disable-3d-apis"]);
   try {
     const { page, noise } = await open({ from: plain });
     assert.match(await page.textContent("#panels > .absent"), /no WebGL/);
