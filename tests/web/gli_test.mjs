@@ -1,6 +1,6 @@
 // The pages' Gauss Linking Integral against numerical integration in high precision:
-//   node gli_test.mjs SHARED_DIR WEB_BUILD
-// Exit code 77 where the reference data or the pages' tools are not there.
+//   node gli_test.mjs GOLDEN_DIR WEB_BUILD
+// Exit code 77 where the pages' tools are not there.
 import assert from "node:assert/strict";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -8,10 +8,10 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 
-const [shared, build] = process.argv.slice(2);
-const golden = (name) => JSON.parse(readFileSync(join(shared, "golden", name), "utf8"));
-if (!existsSync(join(shared, "golden", "segment_pairs.json")) || !existsSync(join(build, "node_modules"))) {
-  console.log(`skipped: no reference data at ${shared}, or no ${build}/node_modules`);
+const [folder, build] = process.argv.slice(2);
+const golden = (name) => JSON.parse(readFileSync(join(folder, name), "utf8"));
+if (!existsSync(join(build, "node_modules"))) {
+  console.log(`skipped: no ${build}/node_modules`);
   process.exit(77);
 }
 const esbuild = createRequire(join(build, "here.js"))("esbuild");
