@@ -80,6 +80,7 @@ const std::map<std::string, Names>& KnownFolders() {
       {"tools/posing", {"tools/report", "tools/api"}},
       {"tools/studio", {"tools/report", "tools/api", "tools/posing"}},
       {"tools/cli", {"tools/report", "tools/api", "tools/posing", "tools/studio"}},
+      {"tools/examples/embed", {}},
       {"tools/bench", {"tools/report", "tools/api", "tools/posing", "tools/studio"}}};
   return folders;
 }
@@ -175,7 +176,8 @@ const std::vector<Library>& Libraries() {
       {"glm/", {"io/scene"}, {}, 1},
       {"yaml-cpp/", {"io/text"}, {}, 1},
       {"zlib.h", {"io/render"}, {}, 1},
-      {"CLI/", {"tools/cli"}, {}, 1},
+      {"CLI/", {"tools/cli"}, {}, 2},
+      {"retarget/retarget.h", {"tools/examples"}, {}, kAnyNumber},  // as users include it
       {"httplib.h", {"tools/studio", "tools/bench"}, {}, 2},
       {"benchmark/", {"tools/bench"}, {}, kAnyNumber},
       {"nlohmann/",
