@@ -4,6 +4,7 @@
 
 #include "solver/metrics/metrics.h"
 #include "solver/metrics/requirements.h"
+#include "solver/problem/clock.h"
 #include "solver/start/start.h"
 
 namespace retarget::solver {

@@ -23,8 +23,7 @@ class Puller {
 
   std::vector<Pull> Run() {
     const Scene& scene = problem_.scene();
-    for (const auto& term : problem_.terms()) {
-      const double weight = problem_.WeightOf(*term);
+    for (const auto& [term, weight] : problem_.terms()) {
       if (weight == 0) continue;
       const std::string name = term->name();
       if (name == "hold") {

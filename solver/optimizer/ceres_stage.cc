@@ -9,7 +9,8 @@
 #include <numeric>
 
 #include "model/body/pass_through.h"
-#include "solver/optimizer/spacetime.h"
+#include "solver/optimizer/stage.h"
+#include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
 
 namespace retarget::solver {
@@ -329,16 +330,16 @@ class CeresStage {
     Rows rows;
     for (int t = 0; t < scene_.num_frames(); ++t) {
       VecX linear = VecX::Zero(scene_.num_coordinates());
-      for (const auto& term : context_.problem->terms()) {
-        const double weight =
-            context_.problem->WeightOf(*term) * (term->staged() ? context_.contact_factor : 1);
+      for (const WeightedTerm& weighted : context_.problem->terms()) {
+        const double weight = weighted.StageWeight(context_.contact_factor);
         if (weight == 0) continue;
+        const Term& term = *weighted.term;
         rows.Reset(cache_.frame(t), true);
-        term->Evaluate(cache_.frame(t), &rows);
+        term.Evaluate(cache_.frame(t), &rows);
         for (const Rows::CoordinateRow& c : rows.coordinates()) {
           linear[c.coordinate] = std::hypot(linear[c.coordinate], weight * c.derivative);
         }
-        AddTermSlots(*term, t, weight, rows);
+        AddTermSlots(term, t, weight, rows);
       }
       for (int b = 0; b < scene_.num_coordinates() / kBlock; ++b) {
         problem_.AddResidualBlock(new LinearCost(linear.segment<kBlock>(kBlock * b)), nullptr,

@@ -6,6 +6,7 @@
 
 #include "model/body/pass_through.h"
 #include "solver/optimizer/spacetime.h"
+#include "solver/problem/clock.h"
 #include "solver/problem/problem.h"
 #include "solver/problem/terms/hold.h"
 

@@ -1,19 +1,16 @@
 #include "solver/optimizer/spacetime.h"
 
-#include <chrono>
 #include <sstream>
 
 #include "model/body/path.h"
 #include "model/geometry/capsule.h"
 #include "model/geometry/polyline.h"
+#include "solver/optimizer/stage.h"
+#include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
+#include "solver/problem/terms/penetration.h"
 
 namespace retarget::solver {
-
-double SecondsNow() {
-  using Clock = std::chrono::steady_clock;
-  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-}
 
 std::vector<double> ParseStages(const std::string& text) {
   std::istringstream in(text);
@@ -38,10 +35,7 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
         {NodesOn(scene.body[0], held.tag.tangle.a), NodesOn(scene.body[1], held.tag.tangle.b)});
   }
   std::vector<Rows> rows(static_cast<size_t>(threads));
-  const Term* penetration = nullptr;
-  for (const auto& term : problem.terms()) {
-    if (std::string(term->name()) == "penetration") penetration = term.get();
-  }
+  const Penetration penetration;
   ParallelFor(scene.num_frames(), threads, [&](int t, int thread) {
     Frame& frame = frames[thread];
     frame.Set(scene, unknowns, t, false);
@@ -51,7 +45,7 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
       gli[t] = std::min(gli[t], scene.tangles[k].sign * value);
     }
     rows[thread].Reset(frame, false);
-    penetration->Evaluate(frame, &rows[thread]);
+    penetration.Evaluate(frame, &rows[thread]);
     for (const double r : rows[thread].residual()) depth[t] = std::max(depth[t], r);
     for (const Hold& h : scene.holds) {
       hold[t] = std::max(hold[t], (HoldPosition(h.from, scene.body, frame.posed) -

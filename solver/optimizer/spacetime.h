@@ -51,23 +51,4 @@ SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
 // Factors of the contact weights: "0.03 0.1 0.3 1" (solve.stages). Throws InputError.
 std::vector<double> ParseStages(const std::string& text);
 
-// What both back ends do with one stage: solve from `unknowns`, leave the best there.
-struct StageContext {
-  const Problem* problem;
-  double contact_factor;
-  double tolerance;  // relative decrease, twice in a row ends the stage
-  int iterations_left;
-  double seconds_left;  // 0: no limit
-  int stage;
-  double started;  // clock at the start of the solve
-  const Progress* progress;
-};
-SolveStatus SolveStageBanded(const StageContext& context, SolveResult* result);
-SolveStatus SolveStageCeres(const StageContext& context, SolveResult* result);
-
-// Fills the figures of an iteration that are measured from the motion.
-void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int threads,
-                      Iteration* iteration);
-double SecondsNow();
-
 }  // namespace retarget::solver

@@ -4,6 +4,7 @@
 #include "model/geometry/polyline.h"
 
 namespace retarget::solver {
+
 TangleTerm::TangleTerm(const Scene& scene) {
   for (const HeldTangle& held : scene.tangles) {
     items_.push_back({NodesOn(scene.body[0], held.tag.tangle.a),

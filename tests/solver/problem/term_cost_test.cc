@@ -62,7 +62,7 @@ TEST(TermCost, AddsUpToTheCost) {
   ASSERT_EQ(whole.size(), problem.terms().size() + 2);
   int staged = 0;
   for (size_t k = 0; k < whole.size(); ++k) {
-    const bool is_staged = k < problem.terms().size() && problem.terms()[k]->staged();
+    const bool is_staged = k < problem.terms().size() && problem.terms()[k].term->staged();
     EXPECT_NEAR(half[k], (is_staged ? 0.25 : 1) * whole[k], 1e-12 * whole[k]);
     staged += is_staged && whole[k] > 0;
   }

@@ -114,7 +114,7 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
     const Problem problem(scene, {});
     for (unsigned seed = 0; seed < 11; ++seed) {
       const Unknowns u = RandomEdit(scene, seed == 0 ? 0 : 0.25, seed);
-      for (const auto& term : problem.terms()) {
+      for (const auto& [term, weight] : problem.terms()) {
         for (int t = 0; t < scene.num_frames(); ++t) {
           CheckFrame(*term, scene, u, t, &checked[term->name()]);
         }
