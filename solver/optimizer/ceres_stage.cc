@@ -20,18 +20,6 @@ constexpr int kBlock = 3;  // of a joint's edit
 constexpr int kAnchor = 2;
 constexpr double kFreeRadius = 1e3;  // of the trust region, over diag(J^T J)
 
-// Ceres wants a fixed number of residuals, hinges come and go: the rows of a term in one frame go
-// into this many slots. Should there be more, the last slot takes the root of the remaining sum of
-// squares, which keeps cost and gradient exact.
-int SlotsFor(const Scene& scene, const Term& term) {
-  const std::string name = term.name();
-  if (name == "tangle") return static_cast<int>(scene.tangles.size());
-  if (name == "hold") return 6 * static_cast<int>(scene.holds.size());
-  if (name == "root_tracking") return 12;
-  if (name == "penetration") return 24;
-  return 12;
-}
-
 // All frames, worked out once per evaluation point.
 class FrameCache : public ceres::EvaluationCallback {
  public:
@@ -96,7 +84,10 @@ class FrameCache : public ceres::EvaluationCallback {
   double last_step_m_ = 0;
 };
 
-// The hinge and point rows of one term in one frame. Parameters: the frame's blocks, then anchors.
+// The hinge and point rows of one term in one frame. Ceres wants a fixed number of residuals,
+// hinges come and go: the rows go into Term::row_slots slots. Should there be more, the last slot
+// takes the root of the remaining sum of squares, which keeps cost and gradient exact. Parameters:
+// the frame's blocks, then anchors.
 class TermCostFunction : public ceres::CostFunction {
  public:
   TermCostFunction(const FrameCache* cache, const Term* term, int t, double weight, int slots,
@@ -349,15 +340,12 @@ class CeresStage {
   }
 
   void AddTermSlots(const Term& term, int t, double weight, const Rows& rows) {
-    const std::string name = term.name();
-    if (name == "pose_tracking") return;
+    const int slots = term.row_slots(cache_.frame(t));
+    if (slots == 0) return;
     std::vector<int> anchors;
     for (const Rows::AnchorEntry& e : rows.anchors()) {
       if (anchors.empty() || anchors.back() != e.anchor) anchors.push_back(e.anchor);
     }
-    const bool always_on = name == "foot_lock" || name == "root_tracking";
-    const int slots = always_on ? rows.num_rows() : SlotsFor(scene_, term);
-    if (slots == 0) return;
     std::vector<double*> parameters;
     for (int b = 0; b < scene_.num_coordinates() / kBlock; ++b) parameters.push_back(BlockOf(t, b));
     for (const int k : anchors) parameters.push_back(AnchorBlock(k));

@@ -40,7 +40,8 @@ class TargetTerm : public Term {
   }
   const char* name() const override { return name_; }
   const char* unit() const override { return "m"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override {
+  int row_slots(const Frame&) const override { return 3 * static_cast<int>(holds_.size()); }
+  void EvaluatePart(const Frame& frame, int, Rows* rows) const override {
     for (const Hold& hold : holds_) AddHoldRows(frame, hold, rows);
   }
 

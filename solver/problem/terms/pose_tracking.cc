@@ -10,7 +10,7 @@ PoseTracking::PoseTracking(const Scene& scene, const JointWeights& weights) {
   }
 }
 
-void PoseTracking::Evaluate(const Frame& frame, Rows* rows) const {
+void PoseTracking::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
     const int first = frame.scene->FirstCoordinate(f);
     for (size_t l = 1; l < share_[f].size(); ++l) {

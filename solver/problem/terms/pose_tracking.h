@@ -17,7 +17,8 @@ class PoseTracking : public Term {
   PoseTracking(const Scene& scene, const JointWeights& weights);
   const char* name() const override { return "pose_tracking"; }
   const char* unit() const override { return "rad"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  int row_slots(const Frame&) const override { return 0; }
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 
  private:
   std::array<std::vector<double>, 2> share_;  // per link

@@ -8,7 +8,7 @@ RootTracking::RootTracking(const Scene& scene) : meeting_(MeetingShifts(scene)) 
   for (int f = 0; f < 2; ++f) relative_[f] = RelativeRootTargets(scene, f);
 }
 
-void RootTracking::Evaluate(const Frame& frame, Rows* rows) const {
+void RootTracking::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
     if (!relative_[f].empty()) {
       EvaluateFollower(frame, f, rows);
@@ -18,11 +18,22 @@ void RootTracking::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
+bool RootTracking::KeepsToClip(int figure, int t) const {
+  const RootShift& shift = meeting_[figure][t];
+  return relative_[figure].empty() && shift.yaw == 0 && shift.shift.isZero(0);
+}
+
+int RootTracking::row_slots(const Frame& frame) const {
+  int rows = 0;
+  for (int f = 0; f < 2; ++f) rows += KeepsToClip(f, frame.t) ? 0 : 6;
+  return rows;
+}
+
 void RootTracking::EvaluateLeader(const Frame& frame, int figure, Rows* rows) const {
   const RootShift& shift = meeting_[figure][frame.t];
   const Pose& source = frame.scene->source[figure].frames[frame.t];
   const int first = frame.scene->FirstCoordinate(figure);
-  if (shift.yaw == 0 && shift.shift.isZero(0)) {  // the edit itself is the error
+  if (KeepsToClip(figure, frame.t)) {
     for (int c = first; c < first + 6; ++c) rows->AddCoordinate(c, frame.x[c], 1);
     return;
   }

@@ -22,9 +22,12 @@ class RootTracking : public Term {
   explicit RootTracking(const Scene& scene);
   const char* name() const override { return "root_tracking"; }
   const char* unit() const override { return "m, rad"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  int row_slots(const Frame& frame) const override;
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 
  private:
+  // The target is the placed clip itself, so that the edit is the error: coordinate rows.
+  bool KeepsToClip(int figure, int t) const;
   void EvaluateLeader(const Frame& frame, int figure, Rows* rows) const;
   void EvaluateFollower(const Frame& frame, int figure, Rows* rows) const;
   std::array<std::vector<RelativeRoot>, 2> relative_;
