@@ -153,9 +153,9 @@ PoseSettings DefaultPoseSettings() {
   w.joint_limit = 100;
   w.tangle = 0;
   SolveSettings& solve = pose.settings.solve;
-  solve.backend = "banded";
+  solve.backend = Backend::kBanded;
   solve.threads = 1;
-  solve.stages = "1";
+  solve.stages = {1};
   solve.max_seconds = 0;
   solve.polish_decrease = 1e-3;
   return pose;

@@ -1,7 +1,5 @@
 #include "solver/optimizer/spacetime.h"
 
-#include <sstream>
-
 #include "model/body/path.h"
 #include "model/geometry/capsule.h"
 #include "model/geometry/polyline.h"
@@ -11,17 +9,6 @@
 #include "solver/problem/terms/penetration.h"
 
 namespace retarget::solver {
-
-std::vector<double> ParseStages(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<double> stages;
-  double factor;
-  while (in >> factor) stages.push_back(factor);
-  if (!in.eof() || stages.empty() || stages.back() != 1) {
-    throw InputError("solve.stages: \"" + text + "\" is not a list of factors that ends with 1");
-  }
-  return stages;
-}
 
 void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int threads,
                       Iteration* iteration) {
@@ -74,8 +61,8 @@ void SolveStages(const Problem& problem, const std::vector<double>& stages, doub
                                static_cast<int>(s),
                                started,
                                &progress};
-    result->status = settings.backend == "banded" ? SolveStageBanded(context, result)
-                                                  : SolveStageCeres(context, result);
+    result->status = settings.backend == Backend::kBanded ? SolveStageBanded(context, result)
+                                                          : SolveStageCeres(context, result);
     if (result->status != SolveStatus::kConverged) return;
   }
 }
@@ -84,7 +71,7 @@ void SolveStages(const Problem& problem, const std::vector<double>& stages, doub
 
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
                            const Progress& progress) {
-  return SolveSpacetime(problem, start, ParseStages(problem.settings().solve.stages), progress);
+  return SolveSpacetime(problem, start, problem.settings().solve.stages, progress);
 }
 
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,

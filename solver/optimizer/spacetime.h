@@ -35,7 +35,7 @@ struct SolveResult {
   double seconds = 0;
   int iterations = 0;  // accepted
   int linear_solves = 0;
-  std::string backend;
+  Backend backend = Backend::kBanded;
   std::vector<Iteration> history;
 };
 
@@ -47,8 +47,5 @@ SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const 
 // The same in stages of one's own, which end with 1.
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
                            const std::vector<double>& stages, const Progress& progress);
-
-// Factors of the contact weights: "0.03 0.1 0.3 1" (solve.stages). Throws InputError.
-std::vector<double> ParseStages(const std::string& text);
 
 }  // namespace retarget::solver

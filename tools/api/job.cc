@@ -37,7 +37,6 @@ Settings EffectiveSettings(const RetargetOptions& options) {
       options.config_path.empty() ? Settings{} : io::ReadSettings(options.config_path);
   for (const std::string& assignment : options.set) io::SetByName(&settings, assignment);
   if (options.threads >= 0) settings.solve.threads = options.threads;
-  solver::ParseStages(settings.solve.stages);
   return settings;
 }
 
