@@ -39,17 +39,6 @@ std::vector<std::string> NamesIn(const std::string& group) {
   return names;
 }
 
-// "a|b" -> {"a", "b"}; nothing for an empty list, which allows any text.
-std::vector<std::string> Alternatives(std::string_view list) {
-  std::vector<std::string> names;
-  while (!list.empty()) {
-    const size_t bar = std::min(list.find('|'), list.size());
-    names.emplace_back(list.substr(0, bar));
-    list.remove_prefix(std::min(bar + 1, list.size()));
-  }
-  return names;
-}
-
 // One overload per type of setting, so that VisitSettings finds its way.
 void ReadInto(double* out, const YamlValue& value, const char* unit, double least, double most) {
   *out = ReadNumber(value, least, most, unit);
@@ -57,34 +46,42 @@ void ReadInto(double* out, const YamlValue& value, const char* unit, double leas
 void ReadInto(int* out, const YamlValue& value, const char*, double least, double most) {
   *out = ReadInteger(value, static_cast<int>(least), static_cast<int>(most));
 }
-void ReadInto(std::string* out, const YamlValue& value, const char*, const char* allowed, double) {
-  const std::vector<std::string> names = Alternatives(allowed);
-  *out = names.empty() ? ReadText(value) : names[ReadName(value, "value", names)];
+template <typename Enum>
+void ReadInto(Enum* out, const YamlValue& value, const char*, double, double) {
+  const auto& names = kNamesOf<Enum>;
+  *out = static_cast<Enum>(ReadName(value, "value", {names.begin(), names.end()}));
+}
+void ReadInto(std::vector<double>* out, const YamlValue& value, const char*, double, double) {
+  *out = ParseStages(ReadText(value));
 }
 
 // Sets the setting that `value.path` names; it must exist.
 void Assign(Settings* settings, const YamlValue& value) {
   VisitSettings(*settings, [&](const char* key, auto& setting, const char* unit, const char*,
-                               auto least, auto most) {
+                               double least, double most) {
     if (value.path == key) ReadInto(&setting, value, unit, least, most);
   });
 }
 
-std::string Printed(const std::string& text) { return YamlText(text); }
-std::string Printed(double number) { return fmt::format("{}", number); }
-std::string Printed(int number) { return fmt::format("{}", number); }
-
-// What a string may be, for its comment.
-std::string AllowedText(const char* allowed) {
-  return *allowed ? fmt::format(" ({})", allowed) : "";
+// As a value of YAML.
+template <typename T>
+std::string Printed(const T& setting) {
+  if constexpr (std::is_arithmetic_v<T>) return fmt::format("{}", setting);
+  return YamlText(fmt::format("{}", Written(setting)));
 }
-std::string AllowedText(double) { return ""; }
+
+// What a setting may be, for its comment.
+template <typename T>
+std::string AllowedText(const T&) {
+  if constexpr (std::is_enum_v<T>) return fmt::format(" ({})", fmt::join(kNamesOf<T>, "|"));
+  return "";
+}
 
 std::vector<std::string> PrintedDefaults() {
   std::vector<std::string> printed;
   const Settings defaults;
   VisitSettings(defaults, [&](const char*, const auto& setting, auto&&...) {
-    printed.push_back(fmt::format("{}", setting));
+    printed.push_back(fmt::format("{}", Written(setting)));
   });
   return printed;
 }
@@ -136,14 +133,14 @@ std::string FormatSettings(const Settings& settings) {
   std::string out, group;
   size_t index = 0;
   VisitSettings(settings, [&](const std::string& key, const auto& setting, const std::string& unit,
-                              const char* meaning, auto least, auto) {
+                              const char* meaning, double, double) {
     if (GroupOf(key) != group) {
       out += (out.empty() ? "" : "\n") + GroupOf(key) + ":\n";
       group = GroupOf(key);
     }
     out += fmt::format("  {}: {}  # default {}{}: {}{}\n", NameOf(key), Printed(setting),
                        defaults[index++], unit.empty() ? "" : ", " + unit, meaning,
-                       AllowedText(least));
+                       AllowedText(setting));
   });
   return out;
 }

@@ -2,9 +2,35 @@
 // (VisitSettings). The YAML reader, `--set`, `retarget config` and the report all walk that table.
 #pragma once
 
+#include <array>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 namespace retarget {
+
+// Settings that are one of a few; kNamesOf has their texts, in the order of the values.
+enum class Backend { kBanded, kCeres };
+enum class Start { kSimulated, kTemplate, kBest };  // initial guess of the solve
+enum class TangleForceKind { kElastic, kGli };
+
+template <typename Enum>
+inline constexpr auto kNamesOf = nullptr;
+template <>
+inline constexpr std::array kNamesOf<Backend> = {"banded", "ceres"};
+template <>
+inline constexpr std::array kNamesOf<Start> = {"simulated", "template", "best"};
+template <>
+inline constexpr std::array kNamesOf<TangleForceKind> = {"elastic", "gli"};
+
+template <typename Enum>
+requires std::is_enum_v<Enum>
+const char* NameOf(Enum value) { return kNamesOf<Enum>[static_cast<size_t>(value)]; }
+
+// Factors of the contact weights as text, "0.03 0.1 0.3 1", and back: a list that ends with 1, else
+// it throws InputError.
+std::string StagesText(const std::vector<double>& stages);
+std::vector<double> ParseStages(const std::string& text);
 
 // Weights of the residual terms: cost = 1/2 sum (weight * residual)^2, residuals in natural units.
 struct Weights {
@@ -27,6 +53,8 @@ struct JointWeights {
   double waist = 2, chest = 2, neck = 1, head = 1, clavicle = 1, shoulder = 0.7, elbow = 0.7,
          wrist = 0.3, hip = 1, knee = 1, ankle = 0.5, other = 0.3;
 };
+// Share of the group that a link belongs to ("left_elbow" -> elbow); 1 for the root.
+double JointShare(const JointWeights& weights, const std::string& link_name);
 
 struct TangleSettings {
   double margin = 0.05;  // turns over one half that a tag aims for
@@ -47,8 +75,8 @@ struct Requirements {
 };
 
 struct SolveSettings {
-  std::string backend = "banded";   // "banded" or "ceres"
-  std::string start = "simulated";  // initial guess
+  Backend backend = Backend::kBanded;
+  Start start = Start::kSimulated;
   int threads = 0;                  // 0: all cores
   int max_iterations = 120;         // over all stages
   double max_seconds = 0;           // 0: no limit
@@ -57,7 +85,8 @@ struct SolveSettings {
   double step_limit_m = 0.10;       // no node moves further in one iteration
   double gli_jump = 0.4;            // turns; a larger jump of a segment pair is a pass-through
   double initial_damping = 1e-3;    // of Levenberg-Marquardt, times diag(J^T J)
-  std::string stages = "0.1 1";     // factors of the contact weights, warm started
+  std::vector<double> stages = {0.1, 1};  // factors of the contact weights, warm started; the last
+                                          // is 1
 };
 
 struct ContactSettings {
@@ -80,7 +109,7 @@ struct SimulationSettings {
   double friction = 1;
   double contact_time = 0.01;  // s: contacts give way for about this long
   double tie_time = 0.01;      // s, the same of holds and planted feet
-  std::string tangle_force = "elastic";
+  TangleForceKind tangle_force = TangleForceKind::kElastic;
   double tangle_stiffness = 400;      // N/m, of the elastic pull
   double tangle_max_force = 150;      // N
   double tangle_slack_m = 0;          // gap that the pull leaves
@@ -100,8 +129,20 @@ struct Settings {
   SimulationSettings simulation;
 };
 
+// What is written of a setting: the number itself, or its text.
+template <typename T>
+auto Written(const T& value) {
+  if constexpr (std::is_arithmetic_v<T>) {
+    return value;
+  } else if constexpr (std::is_enum_v<T>) {
+    return std::string(NameOf(value));
+  } else {
+    return StagesText(value);
+  }
+}
+
 // Calls visit(key, value&, unit, meaning, least, most) for every setting, in order; `value` is a
-// double, int or std::string. For strings `least` is the list of allowed values ("a|b"), or empty.
+// double, int, enum (of kNamesOf) or std::vector<double>. The range is of numbers only.
 template <typename SettingsT, typename Visitor>
 void VisitSettings(SettingsT& s, Visitor&& visit) {
   const double kMax = 1e6;
@@ -158,9 +199,8 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("requirements.floor_m", r.floor_m, "m", "deepest point below the floor", 0, 1);
   visit("requirements.hold_m", r.hold_m, "m", "largest distance of held points", 0, 1);
   auto& v = s.solve;
-  visit("solve.backend", v.backend, "", "linear algebra of the clip's solve", "banded|ceres", 0);
-  visit("solve.start", v.start, "", "initial guess; best: solve from both, keep the better",
-        "simulated|template|best", 0);
+  visit("solve.backend", v.backend, "", "linear algebra of the clip's solve", 0, 0);
+  visit("solve.start", v.start, "", "initial guess; best: solve from both, keep the better", 0, 0);
   visit("solve.threads", v.threads, "", "0: all cores", 0, 256);
   visit("solve.max_iterations", v.max_iterations, "", "over all stages", 1, 100000);
   visit("solve.max_seconds", v.max_seconds, "s", "0: no limit", 0, kMax);
@@ -174,7 +214,7 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("solve.initial_damping", v.initial_damping, "", "of Levenberg-Marquardt, times diag(J^T J)",
         1e-12, kMax);
   visit("solve.stages", v.stages, "",
-        "factors of the contact weights, warm started one after the other", "", 0);
+        "factors of the contact weights, warm started one after the other", 0, 0);
   auto& c = s.contact;
   visit("contact.speed", c.speed, "m/s", "a planted node is slower", 0, 10);
   visit("contact.height", c.height, "m", "over the node's 5th percentile", 0, 1);
@@ -196,8 +236,7 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
         1e-3, 1);
   visit("simulation.tie_time", m.tie_time, "s", "the same of holds and planted feet", 1e-3, 1);
   visit("simulation.tangle_force", m.tangle_force, "",
-        "elastic: pull between crossing segments; gli: along the gradient of the tag",
-        "elastic|gli", 0);
+        "elastic: pull between crossing segments; gli: along the gradient of the tag", 0, 0);
   visit("simulation.tangle_stiffness", m.tangle_stiffness, "N/m", "of the elastic pull", 0, kMax);
   visit("simulation.tangle_max_force", m.tangle_max_force, "N", "of the elastic pull", 0, kMax);
   visit("simulation.tangle_slack_m", m.tangle_slack_m, "m", "gap that the elastic pull leaves", 0,

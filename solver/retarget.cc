@@ -4,6 +4,7 @@
 
 #include "solver/metrics/metrics.h"
 #include "solver/metrics/requirements.h"
+#include "solver/problem/clock.h"
 #include "solver/start/start.h"
 
 namespace retarget::solver {
@@ -48,17 +49,17 @@ bool MeetsAll(const Problem& problem, const SolveResult& solved) {
   return AllMet(CheckRequirements(subject, metrics, problem.settings().requirements));
 }
 
-SolveResult SolveFrom(const Problem& problem, const std::string& start, const Progress& progress,
+SolveResult SolveFrom(const Problem& problem, Start start, const Progress& progress,
                       RetargetResult* result) {
   const double started = SecondsNow();
-  const Unknowns guess = start == "simulated"
+  const Unknowns guess = start == Start::kSimulated
                              ? UnknownsFromPoses(problem.scene(), result->simulation.motion)
                              : TemplateStart(problem);
   result->start_seconds += SecondsNow() - started;
   SolveResult solved = SolveSpacetime(problem, guess, progress);
   const SolveSettings& settings = problem.settings().solve;
   if (solved.status != SolveStatus::kConverged || settings.max_seconds > 0 ||
-      ParseStages(settings.stages).size() == 1 || MeetsAll(problem, solved)) {
+      settings.stages.size() == 1 || MeetsAll(problem, solved)) {
     return solved;
   }
   // While contacts were weak a limb may have come to lie on the wrong side, and the guard lets it
@@ -79,25 +80,25 @@ void SolveFromStart(const Problem& problem, const Progress& progress, RetargetRe
   choice.requested = problem.settings().solve.start;
   const SimulationResult& simulation = result->simulation;
   const bool usable = simulation.status == SimulationStatus::kCompleted;
-  const bool try_simulated = choice.requested != "template" && usable;
-  const bool try_template = choice.requested != "simulated" || !usable;
-  choice.used = try_simulated ? "simulated" : "template";
-  choice.reason = choice.requested == "template" || usable
+  const bool try_simulated = choice.requested != Start::kTemplate && usable;
+  const bool try_template = choice.requested != Start::kSimulated || !usable;
+  choice.used = try_simulated ? Start::kSimulated : Start::kTemplate;
+  choice.reason = choice.requested == Start::kTemplate || usable
                       ? "as asked for"
                       : "the simulation cannot be a start: " + simulation.message;
   if (try_simulated) {
-    result->solve = SolveFrom(problem, "simulated", progress, result);
+    result->solve = SolveFrom(problem, Start::kSimulated, progress, result);
     choice.simulated_cost = result->solve.cost;
     if (result->solve.status == SolveStatus::kInterrupted) return;
   }
   if (!try_template) return;
-  SolveResult other = SolveFrom(problem, "template", progress, result);
+  SolveResult other = SolveFrom(problem, Start::kTemplate, progress, result);
   choice.template_cost = other.cost;
   if (try_simulated) {
-    choice.used = other.cost < result->solve.cost ? "template" : "simulated";
+    choice.used = other.cost < result->solve.cost ? Start::kTemplate : Start::kSimulated;
     choice.reason = "the cheaper of both";
     other.seconds += result->solve.seconds;  // both were needed
-    if (choice.used == "simulated") {
+    if (choice.used == Start::kSimulated) {
       result->solve.seconds = other.seconds;
       return;
     }

@@ -25,8 +25,9 @@ struct RetargetInput {
 
 // Which initial guess the solve took (solve.start), and why.
 struct StartChoice {
-  std::string requested, used;  // "simulated", "template"; requested also "best"
-  std::string reason;           // one sentence
+  Start requested = Start::kSimulated;
+  Start used = Start::kSimulated;  // never kBest
+  std::string reason;              // one sentence
   // Cost at the end of the solve from each start that was tried.
   std::optional<double> simulated_cost, template_cost;
 };

@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "solver/problem/terms/foot_lock.h"
-#include "solver/problem/terms/hold.h"
-#include "solver/problem/terms/tangle.h"
-
 namespace retarget::solver {
 namespace {
 
@@ -15,64 +11,30 @@ class Puller {
   Puller(const Problem& problem, const Unknowns& unknowns, int first, int last,
          const std::vector<int>& coordinates)
       : problem_(problem),
-        part_(problem.scene()),
         unknowns_(unknowns),
         first_(first),
         last_(last),
         coordinates_(coordinates) {}
 
   std::vector<Pull> Run() {
-    const Scene& scene = problem_.scene();
-    for (const auto& term : problem_.terms()) {
-      const double weight = problem_.WeightOf(*term);
-      if (weight == 0) continue;
-      const std::string name = term->name();
-      if (name == "hold") {
-        for (size_t k = 0; k < scene.holds.size(); ++k) {
-          part_.holds = {scene.holds[k]};
-          Add(*term, weight, static_cast<int>(k));
-        }
-      } else if (name == "tangle") {
-        for (size_t k = 0; k < scene.tangles.size(); ++k) {
-          part_.tangles = {scene.tangles[k]};
-          Add(TangleTerm(part_), weight, static_cast<int>(k));
-        }
-      } else if (name == "foot_lock") {
-        AddFeet(weight);
-      } else {
-        Add(*term, weight, -1);
-      }
+    for (const WeightedTerm& weighted : problem_.terms()) {
+      if (weighted.weight == 0) continue;
+      const int parts = weighted.term->parts(problem_.scene());
+      for (int part = 0; part < parts; ++part) AddPart(*weighted.term, weighted.weight, part);
     }
     AddSmoothness();
     return std::move(pulls_);
   }
 
  private:
-  // One contact at a time, with its anchor.
-  void AddFeet(double weight) {
-    const Scene& scene = problem_.scene();
-    const MatX anchors = unknowns_.anchor;
-    int anchor = 0;
-    for (int f = 0; f < 2; ++f) {
-      for (const Contact& contact : scene.contacts[f]) {
-        part_.contacts = {};
-        part_.contacts[f] = {contact};
-        unknowns_.anchor = anchors.col(anchor);
-        if (contact.first < last_ && contact.last >= first_) Add(FootLock(part_), weight, anchor);
-        ++anchor;
-      }
-    }
-    part_.contacts = scene.contacts;
-    unknowns_.anchor = anchors;
-  }
-
-  void Add(const Term& term, double weight, int item) {
-    Pull pull{term.name(), item, VecX::Zero(size())};
+  void AddPart(const Term& term, double weight, int part) {
+    const bool whole = term.part_kind() == PartKind::kWhole;
+    Pull pull{term.name(), whole ? -1 : part, VecX::Zero(size())};
     int rows_seen = 0;
     for (int t = first_; t < last_; ++t) {
-      frame_.Set(part_, unknowns_, t, true);
+      frame_.Set(problem_.scene(), unknowns_, t, true);
       rows_.Reset(frame_, true);
-      term.Evaluate(frame_, &rows_);
+      term.EvaluatePart(frame_, part, &rows_);
       VecX g = rows_.jacobian().transpose() *
                Eigen::Map<const VecX>(rows_.residual().data(), rows_.num_rows());
       for (const Rows::CoordinateRow& c : rows_.coordinates()) {
@@ -110,8 +72,7 @@ class Puller {
   long size() const { return (last_ - first_) * static_cast<long>(coordinates_.size()); }
 
   const Problem& problem_;
-  Scene part_;         // the scene with one hold, tag or contact at a time
-  Unknowns unknowns_;  // with the anchors of part_
+  const Unknowns& unknowns_;
   int first_, last_;
   const std::vector<int>& coordinates_;
   Frame frame_;

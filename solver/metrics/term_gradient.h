@@ -12,7 +12,7 @@ namespace retarget::solver {
 // A hold, a tag or a planted foot pulls by itself; the other terms as a whole.
 struct Pull {
   std::string term;  // YAML key
-  int item = -1;     // hold, tag, or anchor (column of Unknowns::anchor); -1: the whole term
+  int item = -1;     // part of it (PartKind): hold, tag, or anchor; -1: the whole term
   VecX gradient;     // [frames * coordinates], of 1/2 sum (w r)^2
 };
 

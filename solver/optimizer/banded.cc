@@ -5,7 +5,7 @@
 
 #include "solver/optimizer/kernels.h"
 #include "solver/problem/parallel.h"
-#include "solver/problem/terms/smoothness.h"
+#include "solver/problem/smoothness.h"
 
 namespace retarget::solver {
 namespace {

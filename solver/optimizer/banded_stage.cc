@@ -7,7 +7,8 @@
 #include "model/body/pass_through.h"
 #include "solver/optimizer/banded.h"
 #include "solver/optimizer/normal_equations.h"
-#include "solver/optimizer/spacetime.h"
+#include "solver/optimizer/stage.h"
+#include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
 
 namespace retarget::solver {

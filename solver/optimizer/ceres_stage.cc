@@ -9,7 +9,8 @@
 #include <numeric>
 
 #include "model/body/pass_through.h"
-#include "solver/optimizer/spacetime.h"
+#include "solver/optimizer/stage.h"
+#include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
 
 namespace retarget::solver {
@@ -18,18 +19,6 @@ namespace {
 constexpr int kBlock = 3;  // of a joint's edit
 constexpr int kAnchor = 2;
 constexpr double kFreeRadius = 1e3;  // of the trust region, over diag(J^T J)
-
-// Ceres wants a fixed number of residuals, hinges come and go: the rows of a term in one frame go
-// into this many slots. Should there be more, the last slot takes the root of the remaining sum of
-// squares, which keeps cost and gradient exact.
-int SlotsFor(const Scene& scene, const Term& term) {
-  const std::string name = term.name();
-  if (name == "tangle") return static_cast<int>(scene.tangles.size());
-  if (name == "hold") return 6 * static_cast<int>(scene.holds.size());
-  if (name == "root_tracking") return 12;
-  if (name == "penetration") return 24;
-  return 12;
-}
 
 // All frames, worked out once per evaluation point.
 class FrameCache : public ceres::EvaluationCallback {
@@ -95,7 +84,10 @@ class FrameCache : public ceres::EvaluationCallback {
   double last_step_m_ = 0;
 };
 
-// The hinge and point rows of one term in one frame. Parameters: the frame's blocks, then anchors.
+// The hinge and point rows of one term in one frame. Ceres wants a fixed number of residuals,
+// hinges come and go: the rows go into Term::row_slots slots. Should there be more, the last slot
+// takes the root of the remaining sum of squares, which keeps cost and gradient exact. Parameters:
+// the frame's blocks, then anchors.
 class TermCostFunction : public ceres::CostFunction {
  public:
   TermCostFunction(const FrameCache* cache, const Term* term, int t, double weight, int slots,
@@ -329,16 +321,16 @@ class CeresStage {
     Rows rows;
     for (int t = 0; t < scene_.num_frames(); ++t) {
       VecX linear = VecX::Zero(scene_.num_coordinates());
-      for (const auto& term : context_.problem->terms()) {
-        const double weight =
-            context_.problem->WeightOf(*term) * (term->staged() ? context_.contact_factor : 1);
+      for (const WeightedTerm& weighted : context_.problem->terms()) {
+        const double weight = weighted.StageWeight(context_.contact_factor);
         if (weight == 0) continue;
+        const Term& term = *weighted.term;
         rows.Reset(cache_.frame(t), true);
-        term->Evaluate(cache_.frame(t), &rows);
+        term.Evaluate(cache_.frame(t), &rows);
         for (const Rows::CoordinateRow& c : rows.coordinates()) {
           linear[c.coordinate] = std::hypot(linear[c.coordinate], weight * c.derivative);
         }
-        AddTermSlots(*term, t, weight, rows);
+        AddTermSlots(term, t, weight, rows);
       }
       for (int b = 0; b < scene_.num_coordinates() / kBlock; ++b) {
         problem_.AddResidualBlock(new LinearCost(linear.segment<kBlock>(kBlock * b)), nullptr,
@@ -348,15 +340,12 @@ class CeresStage {
   }
 
   void AddTermSlots(const Term& term, int t, double weight, const Rows& rows) {
-    const std::string name = term.name();
-    if (name == "pose_tracking") return;
+    const int slots = term.row_slots(cache_.frame(t));
+    if (slots == 0) return;
     std::vector<int> anchors;
     for (const Rows::AnchorEntry& e : rows.anchors()) {
       if (anchors.empty() || anchors.back() != e.anchor) anchors.push_back(e.anchor);
     }
-    const bool always_on = name == "foot_lock" || name == "root_tracking";
-    const int slots = always_on ? rows.num_rows() : SlotsFor(scene_, term);
-    if (slots == 0) return;
     std::vector<double*> parameters;
     for (int b = 0; b < scene_.num_coordinates() / kBlock; ++b) parameters.push_back(BlockOf(t, b));
     for (const int k : anchors) parameters.push_back(AnchorBlock(k));

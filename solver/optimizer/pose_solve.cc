@@ -6,6 +6,7 @@
 
 #include "model/body/pass_through.h"
 #include "solver/optimizer/spacetime.h"
+#include "solver/problem/clock.h"
 #include "solver/problem/problem.h"
 #include "solver/problem/terms/hold.h"
 
@@ -39,7 +40,8 @@ class TargetTerm : public Term {
   }
   const char* name() const override { return name_; }
   const char* unit() const override { return "m"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override {
+  int row_slots(const Frame&) const override { return 3 * static_cast<int>(holds_.size()); }
+  void EvaluatePart(const Frame& frame, int, Rows* rows) const override {
     for (const Hold& hold : holds_) AddHoldRows(frame, hold, rows);
   }
 
@@ -151,9 +153,9 @@ PoseSettings DefaultPoseSettings() {
   w.joint_limit = 100;
   w.tangle = 0;
   SolveSettings& solve = pose.settings.solve;
-  solve.backend = "banded";
+  solve.backend = Backend::kBanded;
   solve.threads = 1;
-  solve.stages = "1";
+  solve.stages = {1};
   solve.max_seconds = 0;
   solve.polish_decrease = 1e-3;
   return pose;

@@ -1,30 +1,14 @@
 #include "solver/optimizer/spacetime.h"
 
-#include <chrono>
-#include <sstream>
-
 #include "model/body/path.h"
 #include "model/geometry/capsule.h"
 #include "model/geometry/polyline.h"
+#include "solver/optimizer/stage.h"
+#include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
+#include "solver/problem/terms/penetration.h"
 
 namespace retarget::solver {
-
-double SecondsNow() {
-  using Clock = std::chrono::steady_clock;
-  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-}
-
-std::vector<double> ParseStages(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<double> stages;
-  double factor;
-  while (in >> factor) stages.push_back(factor);
-  if (!in.eof() || stages.empty() || stages.back() != 1) {
-    throw InputError("solve.stages: \"" + text + "\" is not a list of factors that ends with 1");
-  }
-  return stages;
-}
 
 void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int threads,
                       Iteration* iteration) {
@@ -38,10 +22,7 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
         {NodesOn(scene.body[0], held.tag.tangle.a), NodesOn(scene.body[1], held.tag.tangle.b)});
   }
   std::vector<Rows> rows(static_cast<size_t>(threads));
-  const Term* penetration = nullptr;
-  for (const auto& term : problem.terms()) {
-    if (std::string(term->name()) == "penetration") penetration = term.get();
-  }
+  const Penetration penetration;
   ParallelFor(scene.num_frames(), threads, [&](int t, int thread) {
     Frame& frame = frames[thread];
     frame.Set(scene, unknowns, t, false);
@@ -51,7 +32,7 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
       gli[t] = std::min(gli[t], scene.tangles[k].sign * value);
     }
     rows[thread].Reset(frame, false);
-    penetration->Evaluate(frame, &rows[thread]);
+    penetration.Evaluate(frame, &rows[thread]);
     for (const double r : rows[thread].residual()) depth[t] = std::max(depth[t], r);
     for (const Hold& h : scene.holds) {
       hold[t] = std::max(hold[t], (HoldPosition(h.from, scene.body, frame.posed) -
@@ -80,8 +61,8 @@ void SolveStages(const Problem& problem, const std::vector<double>& stages, doub
                                static_cast<int>(s),
                                started,
                                &progress};
-    result->status = settings.backend == "banded" ? SolveStageBanded(context, result)
-                                                  : SolveStageCeres(context, result);
+    result->status = settings.backend == Backend::kBanded ? SolveStageBanded(context, result)
+                                                          : SolveStageCeres(context, result);
     if (result->status != SolveStatus::kConverged) return;
   }
 }
@@ -90,7 +71,7 @@ void SolveStages(const Problem& problem, const std::vector<double>& stages, doub
 
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
                            const Progress& progress) {
-  return SolveSpacetime(problem, start, ParseStages(problem.settings().solve.stages), progress);
+  return SolveSpacetime(problem, start, problem.settings().solve.stages, progress);
 }
 
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,

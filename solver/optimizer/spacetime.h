@@ -35,7 +35,7 @@ struct SolveResult {
   double seconds = 0;
   int iterations = 0;  // accepted
   int linear_solves = 0;
-  std::string backend;
+  Backend backend = Backend::kBanded;
   std::vector<Iteration> history;
 };
 
@@ -47,27 +47,5 @@ SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const 
 // The same in stages of one's own, which end with 1.
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
                            const std::vector<double>& stages, const Progress& progress);
-
-// Factors of the contact weights: "0.03 0.1 0.3 1" (solve.stages). Throws InputError.
-std::vector<double> ParseStages(const std::string& text);
-
-// What both back ends do with one stage: solve from `unknowns`, leave the best there.
-struct StageContext {
-  const Problem* problem;
-  double contact_factor;
-  double tolerance;  // relative decrease, twice in a row ends the stage
-  int iterations_left;
-  double seconds_left;  // 0: no limit
-  int stage;
-  double started;  // clock at the start of the solve
-  const Progress* progress;
-};
-SolveStatus SolveStageBanded(const StageContext& context, SolveResult* result);
-SolveStatus SolveStageCeres(const StageContext& context, SolveResult* result);
-
-// Fills the figures of an iteration that are measured from the motion.
-void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int threads,
-                      Iteration* iteration);
-double SecondsNow();
 
 }  // namespace retarget::solver

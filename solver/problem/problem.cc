@@ -5,14 +5,6 @@
 #include <numeric>
 
 #include "solver/problem/parallel.h"
-#include "solver/problem/terms/foot_lock.h"
-#include "solver/problem/terms/ground.h"
-#include "solver/problem/terms/hold.h"
-#include "solver/problem/terms/joint_limit.h"
-#include "solver/problem/terms/penetration.h"
-#include "solver/problem/terms/rig_turn.h"
-#include "solver/problem/terms/tangle.h"
-#include "solver/problem/terms/tracking.h"
 
 namespace retarget::solver {
 
@@ -25,46 +17,26 @@ Settings WithUnitSmoothness(Settings settings) {
 
 }  // namespace
 
-// The table of contents of the objective.
 Problem::Problem(const Scene& scene, const Settings& settings)
     : scene_(&scene),
       settings_(settings),
       smoothness_(scene, settings),
-      natural_smoothness_(scene, WithUnitSmoothness(settings)) {
-  const Weights& w = settings.weights;
-  Add(std::make_unique<PoseTracking>(scene, settings.joint_weights), w.pose_tracking);
-  Add(std::make_unique<RootTracking>(scene), w.root_tracking);
-  Add(std::make_unique<FootLock>(scene), w.foot_lock);
-  Add(std::make_unique<HoldTerm>(), w.hold);
-  Add(std::make_unique<Penetration>(), w.penetration);
-  Add(std::make_unique<SelfPenetration>(scene), w.self_penetration);
-  Add(std::make_unique<Ground>(scene), w.ground);
-  Add(std::make_unique<TangleTerm>(scene), w.tangle);
-  Add(std::make_unique<JointLimitTerm>(), w.joint_limit);
-  Add(std::make_unique<RigTurn>(), w.rig_turn);
-}
+      natural_smoothness_(scene, WithUnitSmoothness(settings)),
+      terms_(MakeTerms(scene, settings)) {}
 
 void Problem::Add(std::unique_ptr<Term> term, double weight) {
-  terms_.push_back(std::move(term));
-  weight_.push_back(weight);
-}
-
-double Problem::WeightOf(const Term& term) const {
-  for (size_t k = 0; k < terms_.size(); ++k) {
-    if (terms_[k].get() == &term) return weight_[k];
-  }
-  return 0;
+  terms_.push_back({std::move(term), weight});
 }
 
 void Problem::EvaluateFrame(const Frame& frame, double contact_factor, bool derivatives,
                             Rows* rows) const {
   rows->Reset(frame, derivatives);
-  for (size_t k = 0; k < terms_.size(); ++k) {
-    const double weight = weight_[k] * (terms_[k]->staged() ? contact_factor : 1);
+  for (const WeightedTerm& t : terms_) {
+    const double weight = t.StageWeight(contact_factor);
     if (weight == 0) continue;
     const int row = rows->num_rows();
     const int coordinate = static_cast<int>(rows->coordinates().size());
-    terms_[k]->Evaluate(frame, rows);
+    t.term->Evaluate(frame, rows);
     rows->Scale(row, coordinate, weight);
   }
 }
@@ -72,10 +44,10 @@ void Problem::EvaluateFrame(const Frame& frame, double contact_factor, bool deri
 double Problem::FrameCost(const Frame& frame, const MatX& edit, double contact_factor, Rows* rows,
                           std::vector<double>* by_term) const {
   by_term->clear();
-  for (size_t k = 0; k < terms_.size(); ++k) {
-    const double weight = weight_[k] * (terms_[k]->staged() ? contact_factor : 1);
+  for (const WeightedTerm& t : terms_) {
+    const double weight = t.StageWeight(contact_factor);
     rows->Reset(frame, false);
-    if (weight != 0) terms_[k]->Evaluate(frame, rows);
+    if (weight != 0) t.term->Evaluate(frame, rows);
     by_term->push_back(weight * weight * rows->HalfSquares());
   }
   for (const bool root : {false, true}) {
@@ -107,8 +79,8 @@ double Problem::Cost(const Unknowns& unknowns, double contact_factor, int thread
 
 std::vector<TermCost> Problem::CostByTerm(const Unknowns& unknowns) const {
   std::vector<TermCost> costs;
-  for (size_t k = 0; k < terms_.size(); ++k) {
-    costs.push_back({terms_[k]->name(), terms_[k]->unit(), weight_[k]});
+  for (const WeightedTerm& t : terms_) {
+    costs.push_back({t.term->name(), t.term->unit(), t.weight});
   }
   costs.push_back({"smoothness", "rad", settings_.weights.smoothness});
   costs.push_back({"root_smoothness", "m, rad", settings_.weights.root_smoothness});
@@ -121,7 +93,7 @@ std::vector<TermCost> Problem::CostByTerm(const Unknowns& unknowns) const {
     frame.Set(*scene_, unknowns, t, false);
     for (size_t k = 0; k < terms_.size(); ++k) {
       rows.Reset(frame, false);
-      terms_[k]->Evaluate(frame, &rows);
+      terms_[k].term->Evaluate(frame, &rows);
       costs[k].natural_cost += rows.HalfSquares();
       for (const double r : rows.residual()) enlarge(r, &costs[k].largest);
       for (const auto& c : rows.coordinates()) enlarge(c.residual, &costs[k].largest);

@@ -1,5 +1,5 @@
-// The spacetime problem: the table of its terms and their weights, and what both back ends ask of
-// it: weighted rows of a frame, and the cost.
+// The spacetime problem: its terms (solver/problem/term_table.h) and smoothness with their weights,
+// and what both back ends ask of it: weighted rows of a frame, and the cost.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "model/settings.h"
-#include "solver/problem/term.h"
-#include "solver/problem/terms/smoothness.h"
+#include "solver/problem/smoothness.h"
+#include "solver/problem/term_table.h"
 
 namespace retarget::solver {
 
@@ -30,8 +30,7 @@ class Problem {
   const Scene& scene() const { return *scene_; }
   const Settings& settings() const { return settings_; }
   const Smoothness& smoothness() const { return smoothness_; }
-  const std::vector<std::unique_ptr<Term>>& terms() const { return terms_; }
-  double WeightOf(const Term& term) const;
+  const std::vector<WeightedTerm>& terms() const { return terms_; }
 
   // Weighted rows of one frame; staged terms take `contact_factor` of their weight.
   void EvaluateFrame(const Frame& frame, double contact_factor, bool derivatives, Rows* rows) const;
@@ -52,8 +51,7 @@ class Problem {
   const Scene* scene_;
   Settings settings_;
   Smoothness smoothness_, natural_smoothness_;  // weighted, and with weights of one
-  std::vector<std::unique_ptr<Term>> terms_;
-  std::vector<double> weight_;
+  std::vector<WeightedTerm> terms_;
 };
 
 }  // namespace retarget::solver

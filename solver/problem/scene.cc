@@ -3,6 +3,7 @@
 #include "model/geometry/so3.h"
 
 namespace retarget::solver {
+
 void EditOf(const Pose& source, const Pose& pose, double* x) {
   Eigen::Map<Vec3> translation(x);
   translation = pose.root_position - source.root_position;

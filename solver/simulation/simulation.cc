@@ -9,9 +9,9 @@
 #include "model/body/path.h"
 #include "model/geometry/polyline.h"
 #include "model/geometry/so3.h"
-#include "solver/optimizer/spacetime.h"
+#include "solver/problem/clock.h"
 #include "solver/problem/root_drift.h"
-#include "solver/problem/terms/tracking.h"
+#include "solver/problem/root_targets.h"
 #include "solver/simulation/physics_world.h"
 #include "solver/simulation/tangle_force.h"
 

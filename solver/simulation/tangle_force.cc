@@ -40,7 +40,7 @@ TangleForce::TangleForce(const Scene& scene, const SimulationSettings& settings)
 }
 
 void TangleForce::Apply(const std::array<PosedBody, 2>& posed, PhysicsWorld* world) const {
-  if (settings_.tangle_force == "gli") {
+  if (settings_.tangle_force == TangleForceKind::kGli) {
     ApplyGli(posed, world);
   } else {
     ApplyElastic(posed, world);

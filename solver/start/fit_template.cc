@@ -91,9 +91,9 @@ TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Bod
   one_frame.solve.max_iterations = 200;
   one_frame.solve.max_seconds = 0;
   one_frame.solve.polish_decrease = 1e-5;
-  one_frame.solve.backend = "banded";
+  one_frame.solve.backend = Backend::kBanded;
   one_frame.solve.threads = 1;
-  one_frame.solve.stages = "1";
+  one_frame.solve.stages = {1};
   const int steps =
       std::max(StepsBetween(posture.body[0], body[0]), StepsBetween(posture.body[1], body[1]));
   Scene scene;

@@ -39,8 +39,8 @@ std::string SetError(const std::string& assignment) {
 std::map<std::string, std::string> Table(const Settings& settings) {
   std::map<std::string, std::string> table;
   const auto text = [](const auto& value) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
-      return value;
+    if constexpr (!std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+      return Written(value);
     } else {
       char buffer[40];
       snprintf(buffer, sizeof buffer, "%.17g", static_cast<double>(value));
@@ -65,10 +65,17 @@ class Perturber {
     value = std::uniform_int_distribution<int>(static_cast<int>(least),
                                                static_cast<int>(most))(random_);
   }
-  void operator()(const char*, std::string& value, const char*, const char*,
-                  const std::string& allowed, int) {
-    value = allowed.empty() ? "0.5 \"1\": # \\ \t\n\x01 \xC3\xA9 end "
-                            : allowed.substr(allowed.rfind('|') + 1);
+  void operator()(const char*, std::vector<double>& value, const char*, const char*, double,
+                  double) {
+    value.resize(std::uniform_int_distribution<size_t>(0, 4)(random_));
+    for (double& factor : value) factor = std::uniform_real_distribution<double>(0, 1)(random_);
+    value.push_back(1);
+  }
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const char*, Enum& value, const char*, const char*, double, double) {
+    const size_t last = kNamesOf<Enum>.size() - 1;
+    value = static_cast<Enum>(std::uniform_int_distribution<size_t>(0, last)(random_));
   }
 
  private:
@@ -88,9 +95,9 @@ TEST(SettingsFileTest, KeysOverrideDefaults) {
       "s.yaml");
   EXPECT_EQ(settings.weights.tangle, 30.5);
   EXPECT_EQ(settings.weights.hold, 4);
-  EXPECT_EQ(settings.solve.backend, "ceres");
+  EXPECT_EQ(settings.solve.backend, Backend::kCeres);
   EXPECT_EQ(settings.solve.threads, 3);
-  EXPECT_EQ(settings.solve.stages, "0.2 1");
+  EXPECT_EQ(settings.solve.stages, (std::vector<double>{0.2, 1}));
   EXPECT_EQ(settings.requirements.penetration_m, 1e-3);
   EXPECT_EQ(settings.weights.ground, Settings().weights.ground);
 }
@@ -159,6 +166,8 @@ TEST(SettingsFileTest, RefusesBadTexts) {
       {"solve: {backend: band}\n",
        "s.yaml:1: solve.backend: unknown value \"band\", did you mean \"banded\"?"},
       {"solve: {stages: [0.1, 1]}\n", "s.yaml:1: solve.stages: expected text, found a list of 2"},
+      {"solve: {stages: \"0.1 0.5\"}\n",
+       "solve.stages: \"0.1 0.5\" is not a list of factors that ends with 1"},
       {"weights: &w {hold: 1}\n", "s.yaml:1: expected a value, found an anchor"},
       {"weights: *w\n", "s.yaml:1: not valid YAML: "},
       {"weights: {hold: !!int 3}\n", "s.yaml:1: expected a value, found the tag"},
@@ -192,8 +201,8 @@ TEST(SettingsFileTest, SetByNameSetsOneKey) {
   SetByName(&settings, "solve.stages=0.2 1");
   SetByName(&settings, "tangle.max_tags=7");
   EXPECT_EQ(settings.weights.tangle, 30);
-  EXPECT_EQ(settings.solve.backend, "ceres");
-  EXPECT_EQ(settings.solve.stages, "0.2 1");
+  EXPECT_EQ(settings.solve.backend, Backend::kCeres);
+  EXPECT_EQ(settings.solve.stages, (std::vector<double>{0.2, 1}));
   EXPECT_EQ(settings.tangle.max_tags, 7);
   EXPECT_EQ(settings.weights.hold, Settings().weights.hold);
 }
@@ -212,6 +221,13 @@ TEST(SettingsFileTest, SetByNameRefuses) {
             "--set: weights.tangle: expected a number from 0 to 1000000 (1/turn), found \"-1\"");
   EXPECT_EQ(SetError("solve.backend=x"),
             "--set: solve.backend: unknown value \"x\", expected one of banded, ceres");
+  EXPECT_EQ(
+      SetError("simulation.tangle_force=rubber"),
+      "--set: simulation.tangle_force: unknown value \"rubber\", expected one of elastic, gli");
+  EXPECT_EQ(SetError("solve.stages=banana"),
+            "solve.stages: \"banana\" is not a list of factors that ends with 1");
+  EXPECT_EQ(SetError("solve.stages="),
+            "solve.stages: \"\" is not a list of factors that ends with 1");
   EXPECT_NE(SetError(""), "");
   EXPECT_NE(SetError("="), "");
 }

@@ -174,27 +174,27 @@ TEST(GrownBody, BothBackEndsSolveIt) {
   settings.solve.relative_decrease = 3e-3;
   settings.solve.polish_decrease = 1e-4;
   double cost[2] = {};
-  for (const char* backend : {"banded", "ceres"}) {
+  for (const Backend backend : {Backend::kBanded, Backend::kCeres}) {
     settings.solve.backend = backend;
     const Problem problem(scene, settings);
     const SolveResult result =
         SolveSpacetime(problem, UnknownsFromPoses(scene, scene.source), nullptr);
-    EXPECT_LT(result.cost, 0.5 * result.initial_cost) << backend;
-    EXPECT_GT(result.iterations, 0) << backend;
-    cost[backend[0] == 'c'] = result.cost;
+    EXPECT_LT(result.cost, 0.5 * result.initial_cost) << NameOf(backend);
+    EXPECT_GT(result.iterations, 0) << NameOf(backend);
+    cost[backend == Backend::kCeres] = result.cost;
     const std::array<Clip, 2> solved = EditedClips(scene, result.unknowns);
     const Metrics m =
         Measure(SubjectOf(scene), ViewOf(scene.body, solved), ViewOf(scene.body, scene.source));
-    EXPECT_GT(m.smallest_gli_between, 0.5) << backend;
-    EXPECT_EQ(m.tangle_kept_percent, 100) << backend;
-    EXPECT_TRUE(m.pass_throughs.empty()) << backend;
-    EXPECT_LT(m.hold_m[0], 5e-3) << backend;
-    EXPECT_LT(m.penetration_m, 0.01) << backend;
-    EXPECT_LT(m.figure[0].foot_drift_m, 5e-3) << backend;
-    EXPECT_LT(m.figure[0].length_error_percent, 1e-9) << backend;
+    EXPECT_GT(m.smallest_gli_between, 0.5) << NameOf(backend);
+    EXPECT_EQ(m.tangle_kept_percent, 100) << NameOf(backend);
+    EXPECT_TRUE(m.pass_throughs.empty()) << NameOf(backend);
+    EXPECT_LT(m.hold_m[0], 5e-3) << NameOf(backend);
+    EXPECT_LT(m.penetration_m, 0.01) << NameOf(backend);
+    EXPECT_LT(m.figure[0].foot_drift_m, 5e-3) << NameOf(backend);
+    EXPECT_LT(m.figure[0].length_error_percent, 1e-9) << NameOf(backend);
     // The fingers take their part: the held fingertip's joint is turned.
     const int l = scene.body[0].FindLink("left_index_2");
-    EXPECT_GT(result.unknowns.edit.middleRows(3 + 3 * l, 3).cwiseAbs().maxCoeff(), 1e-4) << backend;
+    EXPECT_GT(result.unknowns.edit.middleRows(3 + 3 * l, 3).cwiseAbs().maxCoeff(), 1e-4) << NameOf(backend);
   }
   EXPECT_NEAR(cost[0] / cost[1], 1, 1e-2);
 }

@@ -73,7 +73,7 @@ report::Json SolveJson(const solver::RetargetResult& result) {
   }
   constexpr const char* kStatus[] = {"converged", "iteration limit", "time limit", "interrupted"};
   return {
-      {"backend", result.solve.backend},
+      {"backend", NameOf(result.solve.backend)},
       {"status", result.solve.stalled ? "stalled" : kStatus[static_cast<int>(result.solve.status)]},
       {"initial_cost", result.solve.initial_cost},
       {"cost", result.solve.cost},
@@ -87,8 +87,8 @@ report::Json StartJson(const solver::StartChoice& start) {
   const auto cost = [](const std::optional<double>& c) {
     return c ? report::Json(*c) : report::Json(nullptr);
   };
-  return {{"requested", start.requested},
-          {"used", start.used},
+  return {{"requested", NameOf(start.requested)},
+          {"used", NameOf(start.used)},
           {"reason", start.reason},
           {"costs",
            {{"simulated", cost(start.simulated_cost)}, {"template", cost(start.template_cost)}}}};
@@ -165,8 +165,10 @@ report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
   report["versions"] = {{"retarget", kVersion},
                         {"kernels", solver::KernelName()},
                         {"threads", solver::NumThreads(run.job.request.settings.solve.threads)}};
-  VisitSettings(run.job.request.settings, [&](const std::string& key, const auto& value,
-                                              auto&&...) { report["configuration"][key] = value; });
+  VisitSettings(run.job.request.settings,
+                [&](const std::string& key, const auto& value, auto&&...) {
+                  report["configuration"][key] = Written(value);
+                });
   return report;
 }
 

@@ -5,7 +5,7 @@
 
 #include "model/geometry/types.h"
 #include "solver/optimizer/kernels.h"
-#include "solver/optimizer/spacetime.h"
+#include "solver/problem/clock.h"
 
 #define RETARGET_DECLARE_MULTIPLY(isa) \
   extern "C" void retarget_multiply_##isa(const double*, const double*, int, int, int, double*);

@@ -50,7 +50,7 @@ rusage Usage() {
 
 Run SolveExample(int frames, bool banded) {
   Settings settings;
-  settings.solve.backend = banded ? "banded" : "ceres";
+  settings.solve.backend = banded ? Backend::kBanded : Backend::kCeres;
   const solver::RetargetInput input = LoadExample(RETARGET_EXAMPLE_DIR, frames);
   const double cpu_before = CpuSeconds(Usage());
   const solver::RetargetResult result = solver::Retarget(input, settings, {});

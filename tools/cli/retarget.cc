@@ -74,7 +74,6 @@ Request RequestOf(const RetargetOptions& options) {
   if (!options.config_path.empty()) request.settings = io::ReadSettings(options.config_path);
   for (const std::string& assignment : options.set) io::SetByName(&request.settings, assignment);
   if (options.threads >= 0) request.settings.solve.threads = options.threads;
-  solver::ParseStages(request.settings.solve.stages);
   request.fps = options.fps;
   request.frames = ParseFrames(options.frames);
   request.template_at = options.template_at;

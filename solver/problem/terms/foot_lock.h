@@ -16,15 +16,20 @@ class FootLock : public Term {
   explicit FootLock(const Scene& scene);
   const char* name() const override { return "foot_lock"; }
   const char* unit() const override { return "m"; }
+  PartKind part_kind() const override { return PartKind::kContact; }
+  int parts(const Scene&) const override { return static_cast<int>(planted_.size()); }
+  int row_slots(const Frame& frame) const override;
   bool staged() const override { return true; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  void EvaluatePart(const Frame& frame, int anchor, Rows* rows) const override;
 
  private:
   struct Planted {
-    int figure, node, anchor;
+    int figure;
+    Contact contact;
     double height;  // m
+    bool Stands(int t) const { return contact.first <= t && t <= contact.last; }
   };
-  std::vector<std::vector<Planted>> planted_;  // per frame
+  std::vector<Planted> planted_;  // per anchor
 };
 
 }  // namespace retarget::solver

@@ -2,7 +2,7 @@
 
 namespace retarget::solver {
 
-void Ground::Evaluate(const Frame& frame, Rows* rows) const {
+void Ground::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
     for (int n = 0; n < frame.body(f).num_nodes(); ++n) {
       const double depth = radius_[f][n] - frame.posed[f].node[n].y();

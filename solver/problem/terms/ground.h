@@ -17,7 +17,7 @@ class Ground : public Term {
       : radius_{NodeRadii(scene.body[0]), NodeRadii(scene.body[1])} {}
   const char* name() const override { return "ground"; }
   const char* unit() const override { return "m"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 
  private:
   std::array<std::vector<double>, 2> radius_;

@@ -45,8 +45,8 @@ void AddHoldRows(const Frame& frame, const Hold& hold, Rows* rows) {
   if (hold.rotation) EvaluateRotation(frame, hold, rows);
 }
 
-void HoldTerm::Evaluate(const Frame& frame, Rows* rows) const {
-  for (const Hold& hold : frame.scene->holds) AddHoldRows(frame, hold, rows);
+void HoldTerm::EvaluatePart(const Frame& frame, int part, Rows* rows) const {
+  AddHoldRows(frame, frame.scene->holds[static_cast<size_t>(part)], rows);
 }
 
 }  // namespace retarget::solver

@@ -16,8 +16,11 @@ class HoldTerm : public Term {
  public:
   const char* name() const override { return "hold"; }
   const char* unit() const override { return "m, rad"; }
+  PartKind part_kind() const override { return PartKind::kHold; }
+  int parts(const Scene& scene) const override { return static_cast<int>(scene.holds.size()); }
+  int row_slots(const Frame& frame) const override { return 6 * parts(*frame.scene); }
   bool staged() const override { return true; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 };
 
 }  // namespace retarget::solver

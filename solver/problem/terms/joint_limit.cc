@@ -63,7 +63,7 @@ std::vector<LimitViolation> LimitViolations(const JointLimit& limit, const Quat&
   return out;
 }
 
-void JointLimitTerm::Evaluate(const Frame& frame, Rows* rows) const {
+void JointLimitTerm::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
     const Body& body = frame.body(f);
     for (int l = 1; l < body.num_links(); ++l) {

@@ -22,7 +22,7 @@ class JointLimitTerm : public Term {
  public:
   const char* name() const override { return "joint_limit"; }
   const char* unit() const override { return "rad"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 };
 
 }  // namespace retarget::solver

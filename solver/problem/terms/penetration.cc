@@ -50,7 +50,7 @@ void AddDepthRow(const Frame& frame, double depth, const ClosestPoints& closest,
 
 }  // namespace
 
-void Penetration::Evaluate(const Frame& frame, Rows* rows) const {
+void Penetration::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   const std::vector<Capsule> a = CapsulesOf(frame.body(0), frame.posed[0]);
   const std::vector<Capsule> b = CapsulesOf(frame.body(1), frame.posed[1]);
   for (size_t i = 1; i < a.size(); ++i) {
@@ -81,7 +81,7 @@ SelfPenetration::SelfPenetration(const Scene& scene)
   }
 }
 
-void SelfPenetration::Evaluate(const Frame& frame, Rows* rows) const {
+void SelfPenetration::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
     const std::vector<Capsule> c = CapsulesOf(frame.body(f), frame.posed[f]);
     for (size_t k = 0; k < pairs_[f].size(); ++k) {

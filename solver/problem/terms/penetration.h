@@ -18,8 +18,10 @@ class Penetration : public Term {
  public:
   const char* name() const override { return "penetration"; }
   const char* unit() const override { return "m"; }
+  // Bodies in a close hold touch along whole limbs.
+  int row_slots(const Frame&) const override { return 24; }
   bool staged() const override { return true; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 };
 
 class SelfPenetration : public Term {
@@ -28,7 +30,7 @@ class SelfPenetration : public Term {
   const char* name() const override { return "self_penetration"; }
   const char* unit() const override { return "m"; }
   bool staged() const override { return true; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 
  private:
   struct Allowance {

@@ -8,7 +8,7 @@ Vec3 FromRay(const NodeRay& ray, const Vec3& point) {
   return from - along * along.dot(from);
 }
 
-void RayTerm::Evaluate(const Frame& frame, Rows* rows) const {
+void RayTerm::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (const NodeRay& ray : rays_) {
     const Vec3 along = ray.direction.normalized();
     const Vec3 u = along.unitOrthogonal();

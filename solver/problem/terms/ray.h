@@ -27,7 +27,8 @@ class RayTerm : public Term {
   explicit RayTerm(std::vector<NodeRay> rays) : rays_(std::move(rays)) {}
   const char* name() const override { return "ray"; }
   const char* unit() const override { return "m"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  int row_slots(const Frame&) const override { return 2 * static_cast<int>(rays_.size()); }
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 
  private:
   std::vector<NodeRay> rays_;

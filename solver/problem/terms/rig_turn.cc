@@ -4,7 +4,7 @@
 
 namespace retarget::solver {
 
-void RigTurn::Evaluate(const Frame& frame, Rows* rows) const {
+void RigTurn::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
     if (frame.scene->stiff[f].empty()) continue;
     const double* x = frame.x + frame.scene->FirstCoordinate(f);

@@ -12,7 +12,7 @@ class RigTurn : public Term {
  public:
   const char* name() const override { return "rig_turn"; }
   const char* unit() const override { return "rad"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 };
 
 }  // namespace retarget::solver

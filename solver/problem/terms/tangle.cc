@@ -4,6 +4,7 @@
 #include "model/geometry/polyline.h"
 
 namespace retarget::solver {
+
 TangleTerm::TangleTerm(const Scene& scene) {
   for (const HeldTangle& held : scene.tangles) {
     items_.push_back({NodesOn(scene.body[0], held.tag.tangle.a),
@@ -11,21 +12,20 @@ TangleTerm::TangleTerm(const Scene& scene) {
   }
 }
 
-void TangleTerm::Evaluate(const Frame& frame, Rows* rows) const {
-  for (const Item& item : items_) {
-    const std::vector<Vec3> p = PointsOn(frame.posed[0].node, item.nodes_a);
-    const std::vector<Vec3> q = PointsOn(frame.posed[1].node, item.nodes_b);
-    const double missing = item.target - item.sign * PolylineGli(p, q);
-    if (missing <= 0) continue;
-    const int row = rows->Add(missing);
-    if (!rows->derivatives()) continue;
-    const PathGli gli = PolylineGliGradient(p, q);
-    for (size_t i = 0; i < p.size(); ++i) {
-      rows->AddNode(row, 0, item.nodes_a[i], -item.sign * gli.gradient_p[i]);
-    }
-    for (size_t j = 0; j < q.size(); ++j) {
-      rows->AddNode(row, 1, item.nodes_b[j], -item.sign * gli.gradient_q[j]);
-    }
+void TangleTerm::EvaluatePart(const Frame& frame, int part, Rows* rows) const {
+  const Item& item = items_[static_cast<size_t>(part)];
+  const std::vector<Vec3> p = PointsOn(frame.posed[0].node, item.nodes_a);
+  const std::vector<Vec3> q = PointsOn(frame.posed[1].node, item.nodes_b);
+  const double missing = item.target - item.sign * PolylineGli(p, q);
+  if (missing <= 0) return;
+  const int row = rows->Add(missing);
+  if (!rows->derivatives()) return;
+  const PathGli gli = PolylineGliGradient(p, q);
+  for (size_t i = 0; i < p.size(); ++i) {
+    rows->AddNode(row, 0, item.nodes_a[i], -item.sign * gli.gradient_p[i]);
+  }
+  for (size_t j = 0; j < q.size(); ++j) {
+    rows->AddNode(row, 1, item.nodes_b[j], -item.sign * gli.gradient_q[j]);
   }
 }
 

@@ -15,7 +15,10 @@ class TangleTerm : public Term {
   explicit TangleTerm(const Scene& scene);
   const char* name() const override { return "tangle"; }
   const char* unit() const override { return "turns"; }
-  void Evaluate(const Frame& frame, Rows* rows) const override;
+  PartKind part_kind() const override { return PartKind::kTag; }
+  int parts(const Scene&) const override { return static_cast<int>(items_.size()); }
+  int row_slots(const Frame& frame) const override { return parts(*frame.scene); }
+  void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 
  private:
   struct Item {

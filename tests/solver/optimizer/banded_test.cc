@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "solver/problem/terms/smoothness.h"
+#include "solver/problem/smoothness.h"
 
 namespace retarget::solver {
 namespace {

@@ -35,9 +35,9 @@ TEST(Spacetime, BothBackEndsReachTheSameMinimum) {
   for (const bool follow : {false, true}) {
     const Scene scene = SmallScene(12, 0.1, follow);
     Settings settings = Tight();
-    settings.solve.backend = "banded";
+    settings.solve.backend = Backend::kBanded;
     const SolveResult banded = SolveFromStart(scene, settings);
-    settings.solve.backend = "ceres";
+    settings.solve.backend = Backend::kCeres;
     const SolveResult ceres = SolveFromStart(scene, settings);
     EXPECT_GT(banded.initial_cost, banded.cost);
     EXPECT_EQ(banded.initial_cost, ceres.initial_cost);
@@ -64,14 +64,14 @@ TEST(Spacetime, TrackingAloneReturnsTheSource) {
 
 TEST(Spacetime, EqualRunsAreEqual) {
   const Scene scene = SmallScene(10, 0.1);
-  for (const char* backend : {"banded", "ceres"}) {
+  for (const Backend backend : {Backend::kBanded, Backend::kCeres}) {
     Settings settings = Tight();
     settings.solve.backend = backend;
     settings.solve.max_iterations = 12;
     const SolveResult first = SolveFromSource(scene, settings);
     const SolveResult second = SolveFromSource(scene, settings);
-    EXPECT_EQ(first.unknowns.edit, second.unknowns.edit) << backend;
-    EXPECT_EQ(first.cost, second.cost) << backend;
+    EXPECT_EQ(first.unknowns.edit, second.unknowns.edit) << NameOf(backend);
+    EXPECT_EQ(first.cost, second.cost) << NameOf(backend);
   }
 }
 

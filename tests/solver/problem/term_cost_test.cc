@@ -62,7 +62,7 @@ TEST(TermCost, AddsUpToTheCost) {
   ASSERT_EQ(whole.size(), problem.terms().size() + 2);
   int staged = 0;
   for (size_t k = 0; k < whole.size(); ++k) {
-    const bool is_staged = k < problem.terms().size() && problem.terms()[k]->staged();
+    const bool is_staged = k < problem.terms().size() && problem.terms()[k].term->staged();
     EXPECT_NEAR(half[k], (is_staged ? 0.25 : 1) * whole[k], 1e-12 * whole[k]);
     staged += is_staged && whole[k] > 0;
   }
@@ -71,20 +71,20 @@ TEST(TermCost, AddsUpToTheCost) {
 
 TEST(TermCost, HistoryHasTheSharesOfEveryIteration) {
   const Scene scene = SmallScene(6, 0.2);
-  for (const char* backend : {"banded", "ceres"}) {
+  for (const Backend backend : {Backend::kBanded, Backend::kCeres}) {
     Settings settings;
     settings.solve.backend = backend;
     const Problem problem(scene, settings);
     const SolveResult result = SolveSpacetime(problem, TemplateStart(problem), {});
-    ASSERT_GE(result.history.size(), 3u) << backend;
+    ASSERT_GE(result.history.size(), 3u) << NameOf(backend);
     for (const Iteration& i : result.history) {
-      EXPECT_NEAR(SumOf(i.term_cost), i.cost, 1e-9 * i.cost) << backend << " " << i.index;
+      EXPECT_NEAR(SumOf(i.term_cost), i.cost, 1e-9 * i.cost) << NameOf(backend) << " " << i.index;
     }
     const std::vector<TermCost> costs = problem.CostByTerm(result.unknowns);
     ASSERT_EQ(result.history.back().term_cost.size(), costs.size());
     for (size_t k = 0; k < costs.size(); ++k) {
       EXPECT_NEAR(result.history.back().term_cost[k], costs[k].cost, 1e-9 * result.cost)
-          << backend << " " << costs[k].name;
+          << NameOf(backend) << " " << costs[k].name;
     }
   }
 }

@@ -116,7 +116,7 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
     const Problem problem(scene, {});
     for (unsigned seed = 0; seed < 11; ++seed) {
       const Unknowns u = RandomEdit(scene, seed == 0 ? 0 : 0.25, seed);
-      for (const auto& term : problem.terms()) {
+      for (const auto& [term, weight] : problem.terms()) {
         for (int t = 0; t < scene.num_frames(); ++t) {
           CheckFrame(*term, scene, u, t, &checked[term->name()]);
         }
@@ -132,6 +132,56 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
     EXPECT_GT(c.nonzero, 60) << term;
   }
   EXPECT_EQ(checked.size(), 10u);
+}
+
+TEST(Terms, PartsAreOfTheSceneAndAddUpToTheTerm) {
+  const Scene scene = SmallScene(5, 0.2);
+  const Problem problem(scene, {});
+  const Unknowns u = RandomEdit(scene, 0.1, 2);
+  std::map<PartKind, int> kinds;
+  int always_on = 0;
+  for (const auto& [term, weight] : problem.terms()) {
+    ++kinds[term->part_kind()];
+    const size_t parts = static_cast<size_t>(term->parts(scene));
+    switch (term->part_kind()) {
+      case PartKind::kWhole:
+        EXPECT_EQ(parts, 1u) << term->name();
+        break;
+      case PartKind::kHold:
+        EXPECT_EQ(parts, scene.holds.size());
+        break;
+      case PartKind::kTag:
+        EXPECT_EQ(parts, scene.tangles.size());
+        break;
+      case PartKind::kContact:
+        EXPECT_EQ(static_cast<long>(parts), u.anchor.cols());
+        break;
+    }
+    for (int t = 0; t < scene.num_frames(); ++t) {
+      Frame frame;
+      frame.Set(scene, u, t, false);
+      std::vector<double> of_parts;
+      for (size_t part = 0; part < parts; ++part) {
+        Rows rows;
+        rows.Reset(frame, false);
+        term->EvaluatePart(frame, static_cast<int>(part), &rows);
+        of_parts.insert(of_parts.end(), rows.residual().begin(), rows.residual().end());
+      }
+      Rows whole;
+      whole.Reset(frame, false);
+      term->Evaluate(frame, &whole);
+      EXPECT_EQ(of_parts, whole.residual()) << term->name();
+      const std::string name = term->name();
+      if (name == "foot_lock" || name == "root_tracking" || name == "pose_tracking") {
+        EXPECT_EQ(term->row_slots(frame), whole.num_rows()) << name;
+        always_on += whole.num_rows();
+      }
+    }
+  }
+  EXPECT_EQ(kinds[PartKind::kHold], 1);
+  EXPECT_EQ(kinds[PartKind::kTag], 1);
+  EXPECT_EQ(kinds[PartKind::kContact], 1);
+  EXPECT_GT(always_on, 20);
 }
 
 TEST(Terms, RaysHaveTheirJacobianAndMeasureTheDistance) {

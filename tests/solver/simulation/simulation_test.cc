@@ -235,7 +235,7 @@ TEST(Simulation, ALimbThatGoesThroughAnotherIsSaid) {
 TEST(TangleForce, PullsEquallyAndOppositely) {
   Scene scene = SmallScene(2, 0.1);
   ASSERT_FALSE(scene.tangles.empty());
-  for (const char* kind : {"elastic", "gli"}) {
+  for (const TangleForceKind kind : {TangleForceKind::kElastic, TangleForceKind::kGli}) {
     SimulationSettings settings;
     settings.tangle_force = kind;
     for (HeldTangle& held : scene.tangles) held.target = 2;  // never reached
@@ -270,9 +270,10 @@ TEST(TangleForce, PullsEquallyAndOppositely) {
     }
     world.BeginStep();
     for (int f = 0; f < 2; ++f) posed[f] = world.Posed(f);
-    EXPECT_GT(world.RootVelocity(0).norm() + world.RootVelocity(1).norm(), 1e-3) << kind;
-    EXPECT_LT(world.LinearMomentum().norm(), 0.05) << kind << ", kg m/s, after 10 ms of 100 N";
-    if (std::string(kind) == "gli") {
+    EXPECT_GT(world.RootVelocity(0).norm() + world.RootVelocity(1).norm(), 1e-3) << NameOf(kind);
+    EXPECT_LT(world.LinearMomentum().norm(), 0.05)
+        << NameOf(kind) << ", kg m/s, after 10 ms of 100 N";
+    if (kind == TangleForceKind::kGli) {
       EXPECT_GT(gli(), before);
     }
   }
@@ -290,7 +291,7 @@ TEST(Start, ASimulationThatFailsIsReplacedByTheTemplateAndSaidSo) {
   settings.simulation.time_step = 0.02;
   const RetargetResult result = Retarget(SmallJob(20), settings, nullptr);
   EXPECT_EQ(result.simulation.status, SimulationStatus::kDiverged);
-  EXPECT_EQ(result.start.used, "template");
+  EXPECT_EQ(result.start.used, Start::kTemplate);
   EXPECT_NE(result.start.reason.find(result.simulation.message), std::string::npos);
   EXPECT_EQ(result.solve.status, SolveStatus::kConverged);
   EXPECT_FALSE(result.start.simulated_cost.has_value());
@@ -298,18 +299,18 @@ TEST(Start, ASimulationThatFailsIsReplacedByTheTemplateAndSaidSo) {
 
 TEST(Start, BestTakesTheCheaperOfBoth) {
   Settings settings;
-  std::map<std::string, RetargetResult> result;
-  for (const char* start : {"simulated", "template", "best"}) {
+  std::map<Start, RetargetResult> result;
+  for (const Start start : {Start::kSimulated, Start::kTemplate, Start::kBest}) {
     settings.solve.start = start;
     result[start] = Retarget(SmallJob(20), settings, nullptr);
     EXPECT_EQ(result[start].start.requested, start);
   }
-  EXPECT_EQ(result["simulated"].start.used, "simulated");
-  EXPECT_EQ(result["template"].start.used, "template");
-  EXPECT_EQ(result["best"].start.simulated_cost, result["simulated"].solve.cost);
-  EXPECT_EQ(result["best"].start.template_cost, result["template"].solve.cost);
-  EXPECT_EQ(result["best"].solve.cost,
-            std::min(result["simulated"].solve.cost, result["template"].solve.cost));
+  EXPECT_EQ(result[Start::kSimulated].start.used, Start::kSimulated);
+  EXPECT_EQ(result[Start::kTemplate].start.used, Start::kTemplate);
+  EXPECT_EQ(result[Start::kBest].start.simulated_cost, result[Start::kSimulated].solve.cost);
+  EXPECT_EQ(result[Start::kBest].start.template_cost, result[Start::kTemplate].solve.cost);
+  EXPECT_EQ(result[Start::kBest].solve.cost,
+            std::min(result[Start::kSimulated].solve.cost, result[Start::kTemplate].solve.cost));
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
-#include "solver/problem/terms/smoothness.h"
+#include "solver/problem/smoothness.h"
 
 #include <algorithm>
-
-#include "solver/problem/terms/tracking.h"
 
 namespace retarget::solver {
 namespace {

@@ -1,72 +1,14 @@
-#include "solver/problem/terms/tracking.h"
+#include "solver/problem/terms/root_tracking.h"
 
 #include "model/geometry/so3.h"
 
 namespace retarget::solver {
 
-double JointShare(const JointWeights& w, const std::string& link_name) {
-  const size_t side = link_name.find('_');
-  const std::string joint = side == std::string::npos ? link_name : link_name.substr(side + 1);
-  if (joint == "root") return 1;
-  if (joint == "waist") return w.waist;
-  if (joint == "chest") return w.chest;
-  if (joint == "neck") return w.neck;
-  if (joint == "head") return w.head;
-  if (joint == "clavicle") return w.clavicle;
-  if (joint == "shoulder") return w.shoulder;
-  if (joint == "elbow") return w.elbow;
-  if (joint == "wrist") return w.wrist;
-  if (joint == "hip") return w.hip;
-  if (joint == "knee") return w.knee;
-  if (joint == "ankle") return w.ankle;
-  return w.other;
-}
-
-PoseTracking::PoseTracking(const Scene& scene, const JointWeights& weights) {
-  for (int f = 0; f < 2; ++f) {
-    for (const Link& link : scene.body[f].links) {
-      share_[f].push_back(JointShare(weights, link.name));
-    }
-  }
-}
-
-void PoseTracking::Evaluate(const Frame& frame, Rows* rows) const {
-  for (int f = 0; f < 2; ++f) {
-    const int first = frame.scene->FirstCoordinate(f);
-    for (size_t l = 1; l < share_[f].size(); ++l) {
-      for (int k = 0; k < 3; ++k) {
-        const int c = first + 3 + 3 * static_cast<int>(l) + k;
-        rows->AddCoordinate(c, share_[f][l] * frame.x[c], share_[f][l]);
-      }
-    }
-  }
-}
-
-std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure) {
-  std::vector<RelativeRoot> targets;
-  if (scene.root[figure] == RootLeader::kOwnClip) return targets;
-  const Pose& self = scene.posture.pose[figure];
-  const Pose& partner = scene.posture.pose[1 - figure];
-  const Pose& start = scene.source[figure].frames[scene.template_frame];
-  const Quat partner_inverse = partner.rotation[0].conjugate();
-  const Quat start_inverse = start.rotation[0].conjugate();
-  for (const Pose& pose : scene.source[figure].frames) {
-    // X_T X_clip(t0)^-1 X_clip(t), then into the partner's frame.
-    const Quat moved_rotation = self.rotation[0] * start_inverse * pose.rotation[0];
-    const Vec3 moved =
-        self.root_position +
-        self.rotation[0] * (start_inverse * (pose.root_position - start.root_position));
-    targets.push_back({partner_inverse * (moved - partner.root_position),
-                       (partner_inverse * moved_rotation).normalized()});
-  }
-  return targets;
-}
-
 RootTracking::RootTracking(const Scene& scene) : meeting_(MeetingShifts(scene)) {
   for (int f = 0; f < 2; ++f) relative_[f] = RelativeRootTargets(scene, f);
 }
 
-void RootTracking::Evaluate(const Frame& frame, Rows* rows) const {
+void RootTracking::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
     if (!relative_[f].empty()) {
       EvaluateFollower(frame, f, rows);
@@ -76,11 +18,22 @@ void RootTracking::Evaluate(const Frame& frame, Rows* rows) const {
   }
 }
 
+bool RootTracking::KeepsToClip(int figure, int t) const {
+  const RootShift& shift = meeting_[figure][t];
+  return relative_[figure].empty() && shift.yaw == 0 && shift.shift.isZero(0);
+}
+
+int RootTracking::row_slots(const Frame& frame) const {
+  int rows = 0;
+  for (int f = 0; f < 2; ++f) rows += KeepsToClip(f, frame.t) ? 0 : 6;
+  return rows;
+}
+
 void RootTracking::EvaluateLeader(const Frame& frame, int figure, Rows* rows) const {
   const RootShift& shift = meeting_[figure][frame.t];
   const Pose& source = frame.scene->source[figure].frames[frame.t];
   const int first = frame.scene->FirstCoordinate(figure);
-  if (shift.yaw == 0 && shift.shift.isZero(0)) {  // the edit itself is the error
+  if (KeepsToClip(figure, frame.t)) {
     for (int c = first; c < first + 6; ++c) rows->AddCoordinate(c, frame.x[c], 1);
     return;
   }

@@ -1,0 +1,25 @@
+#include "solver/problem/root_targets.h"
+
+namespace retarget::solver {
+
+std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure) {
+  std::vector<RelativeRoot> targets;
+  if (scene.root[figure] == RootLeader::kOwnClip) return targets;
+  const Pose& self = scene.posture.pose[figure];
+  const Pose& partner = scene.posture.pose[1 - figure];
+  const Pose& start = scene.source[figure].frames[scene.template_frame];
+  const Quat partner_inverse = partner.rotation[0].conjugate();
+  const Quat start_inverse = start.rotation[0].conjugate();
+  for (const Pose& pose : scene.source[figure].frames) {
+    // X_T X_clip(t0)^-1 X_clip(t), then into the partner's frame.
+    const Quat moved_rotation = self.rotation[0] * start_inverse * pose.rotation[0];
+    const Vec3 moved =
+        self.root_position +
+        self.rotation[0] * (start_inverse * (pose.root_position - start.root_position));
+    targets.push_back({partner_inverse * (moved - partner.root_position),
+                       (partner_inverse * moved_rotation).normalized()});
+  }
+  return targets;
+}
+
+}  // namespace retarget::solver
