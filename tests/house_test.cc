@@ -94,13 +94,8 @@ const std::map<std::string, Names>& KnownLayers() {
   return layers;
 }
 
-// Edges against the order that are known, to go: the table of terms is part of the problem.
-using Edge = std::pair<std::string, std::string>;
-const std::set<Edge> kKnownExceptions = {{"solver/problem", "solver/problem/terms"}};
-
 TEST(House, IncludesFollowTheFolders) {
   int checked = 0;
-  std::set<Edge> exceptions;
   for (const SourceFile& file : SourceFiles()) {
     ASSERT_TRUE(KnownFolders().count(file.folder)) << file.folder << " has no place in the order";
     for (const std::string& include : file.project) {
@@ -108,10 +103,6 @@ TEST(House, IncludesFollowTheFolders) {
       ++checked;
       EXPECT_TRUE(fs::exists(ProjectPath(include))) << file.path << ": no file " << include;
       if (target == file.folder) continue;
-      if (kKnownExceptions.count({file.folder, target})) {
-        exceptions.insert({file.folder, target});
-        continue;
-      }
       const bool allowed = LayerOf(target) == LayerOf(file.folder)
                                ? KnownFolders().at(file.folder).count(target) > 0
                                : KnownLayers().at(LayerOf(file.folder)).count(LayerOf(target)) > 0;
@@ -119,7 +110,6 @@ TEST(House, IncludesFollowTheFolders) {
     }
   }
   EXPECT_GT(checked, 500);
-  EXPECT_EQ(exceptions, kKnownExceptions) << "an exception that is gone is to be struck out";
 }
 
 // The sources alone, whatever the table above allows.
@@ -129,7 +119,7 @@ TEST(House, NoFolderIncludesItselfThroughOthers) {
     Names& targets = includes[file.folder];
     for (const std::string& include : file.project) {
       const std::string target = fs::path(include).parent_path();
-      if (target != file.folder && !kKnownExceptions.count({file.folder, target})) {
+      if (target != file.folder) {
         targets.insert(target);
       }
     }
