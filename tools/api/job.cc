@@ -32,10 +32,15 @@ FrameRange ParseFrames(const std::string& text, int available) {
 
 }  // namespace
 
-Settings EffectiveSettings(const RetargetOptions& options) {
+Settings SettingsOf(const SettingsOptions& options) {
   Settings settings =
       options.config_path.empty() ? Settings{} : io::ReadSettings(options.config_path);
   for (const std::string& assignment : options.set) io::SetByName(&settings, assignment);
+  return settings;
+}
+
+Settings EffectiveSettings(const RetargetOptions& options) {
+  Settings settings = SettingsOf({options.config_path, options.set});
   if (options.threads >= 0) settings.solve.threads = options.threads;
   solver::ParseStages(settings.solve.stages);
   return settings;

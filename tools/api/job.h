@@ -16,7 +16,9 @@ struct FrameRange {
   int first, last;  // half-open
 };
 
-// Configuration file, then --set, then --threads. Throws InputError.
+// Configuration file, then single settings. Throws InputError.
+Settings SettingsOf(const SettingsOptions& options);
+// The same, then --threads.
 Settings EffectiveSettings(const RetargetOptions& options);
 
 struct Job {

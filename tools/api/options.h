@@ -9,6 +9,12 @@
 
 namespace retarget::api {
 
+// Where settings come from: a file, and single ones over it.
+struct SettingsOptions {
+  std::string config_path;       // empty: the defaults
+  std::vector<std::string> set;  // "key=value"
+};
+
 struct RetargetOptions {
   std::array<io::ClipOptions, 2> clip;
   std::string template_path, config_path, out = "out", frames;

@@ -30,14 +30,14 @@ int RunSimulate(const api::RetargetOptions& options);
 
 int RunVerify(const std::string& folder, bool json);
 int RunCompare(const std::vector<std::string>& folders, bool json);
-int RunTangles(const std::string& path, bool json);
+int RunTangles(const std::string& path, const api::SettingsOptions& settings, bool json);
 int RunMap(const io::ClipOptions& clip, bool json, bool yaml);
 // The clip with left and right exchanged.
 int RunMirror(const io::ClipOptions& options, const std::string& out, bool force);
 // What is in a motion or character file of any format.
 int RunInspect(const io::ClipOptions& clip, bool json);
-int RunConfig(const std::string& config_path, const std::vector<std::string>& set);
-int RunTemplateCheck(const std::string& path, bool json);
+int RunConfig(const api::SettingsOptions& settings);
+int RunTemplateCheck(const std::string& path, const api::SettingsOptions& settings, bool json);
 
 struct FromClipsOptions {
   std::array<io::ClipOptions, 2> clip;
@@ -58,6 +58,7 @@ struct PoseCommandOptions {
   };
   std::vector<Step> steps;
   std::string out;
+  api::SettingsOptions settings;
   bool json = false, force = false;
 };
 int RunPose(const PoseCommandOptions& options);
@@ -77,6 +78,7 @@ struct StudioOptions {
   std::string template_path, photo_path;  // to begin with; empty: none
   std::string library;                    // folder; empty: the shipped one and the user's own
   std::array<io::ClipOptions, 2> clip;    // to try a posture on
+  api::SettingsOptions settings;          // of its queries
   int port = 0;                           // 0: any that is free
   bool browser = true;                    // open the page
 };

@@ -8,6 +8,7 @@
 
 #include "io/recognition/recognise.h"
 #include "io/settings_file.h"
+#include "tools/api/job.h"
 #include "tools/api/version.h"
 #include "tools/cli/commands.h"
 #include "tools/posing/words.h"
@@ -26,10 +27,8 @@ int RunMap(const io::ClipOptions& options, bool json, bool yaml) {
   return kDone;
 }
 
-int RunConfig(const std::string& config_path, const std::vector<std::string>& set) {
-  Settings settings = config_path.empty() ? Settings{} : io::ReadSettings(config_path);
-  for (const std::string& assignment : set) io::SetByName(&settings, assignment);
-  fmt::print("{}", io::FormatSettings(settings));
+int RunConfig(const api::SettingsOptions& settings) {
+  fmt::print("{}", io::FormatSettings(api::SettingsOf(settings)));
   return kDone;
 }
 
@@ -68,6 +67,11 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
       ->group(group);
 }
 
+void AddSettings(CLI::App* app, api::SettingsOptions* settings) {
+  app->add_option("--config", settings->config_path, "weights and settings (YAML)");
+  app->add_option("--set", settings->set, "one setting, such as tangle.max_tags=3 (repeatable)");
+}
+
 struct CommandLine {
   api::RetargetOptions retarget;
   FromClipsOptions from_clips;
@@ -75,8 +79,9 @@ struct CommandLine {
   GalleryOptions gallery;
   StudioOptions studio;
   io::ClipOptions map_clip;
-  std::string folder, file, config, check, picture;
-  std::vector<std::string> set, clips, folders;
+  api::SettingsOptions settings;
+  std::string folder, file, check, picture;
+  std::vector<std::string> clips, folders;
   bool json = false, yaml = false, force = false;
   int code = 0;
 
@@ -166,7 +171,8 @@ struct CommandLine {
         app->add_subcommand("tangles", "what is tangled in a template or in node positions");
     tangles->add_option("file", file, "template (YAML) or positions (JSON)")->required();
     tangles->add_flag("--json", json);
-    tangles->callback([this] { code = RunTangles(file, json); });
+    AddSettings(tangles, &settings);
+    tangles->callback([this] { code = RunTangles(file, settings, json); });
 
     CLI::App* map = app->add_subcommand("map", "what is recognised in a clip");
     map->add_option("file", map_clip.path, "clip: BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
@@ -196,11 +202,11 @@ struct CommandLine {
       code = RunInspect(map_clip, json);
     });
 
-    CLI::App* settings =
+    CLI::App* configuration =
         app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");
-    settings->add_option("--config", config, "start from this file");
-    settings->add_option("--set", set, "change one setting");
-    settings->callback([this] { code = RunConfig(config, set); });
+    configuration->add_option("--config", settings.config_path, "start from this file");
+    configuration->add_option("--set", settings.set, "change one setting");
+    configuration->callback([this] { code = RunConfig(settings); });
 
     CLI::App* render =
         app->add_subcommand("render", "a picture of a run (source above result) or of a template");
@@ -228,13 +234,14 @@ struct CommandLine {
         ->default_str("from clips");
     posture->add_flag("--force", from_clips.force, "overwrite the file");
     posture->add_flag("--json", json);
+    AddSettings(posture, &settings);
     AddClipOptions(posture, &from_clips.clip[0], "a", false);
     AddClipOptions(posture, &from_clips.clip[1], "b", false);
     posture->callback([this] { code = RunTemplate(); });
   }
 
   int RunTemplate() {
-    if (!check.empty() && clips.empty()) return RunTemplateCheck(check, json);
+    if (!check.empty() && clips.empty()) return RunTemplateCheck(check, settings, json);
     if (!check.empty() || clips.empty() || from_clips.out.empty()) {
       throw InputError("template: expected --check FILE, or --from-clips A B --frame K --out FILE");
     }
@@ -258,6 +265,7 @@ struct CommandLine {
     posing->add_option("--out", pose.out, "template to write (YAML)");
     posing->add_flag("--json", pose.json, "print tangles, overlaps and warnings as JSON");
     posing->add_flag("--force", pose.force, "overwrite the file");
+    AddSettings(posing, &pose.settings);
     AddClipOptions(posing, &from_clips.clip[0], "a", false);
     AddClipOptions(posing, &from_clips.clip[1], "b", false);
     for (const posing::PoseWord& word : posing::PoseWords()) {
@@ -291,6 +299,7 @@ struct CommandLine {
                      "folder of templates (default: the shipped ones and your own)");
     page->add_option("--clip-a", studio.clip[0].path, "clip to try the posture on");
     page->add_option("--clip-b", studio.clip[1].path, "clip to try the posture on");
+    AddSettings(page, &studio.settings);
     page->add_option("--port", studio.port, "of 127.0.0.1; 0: any that is free")
         ->check(CLI::Range(0, 65535));
     page->add_flag("--no-browser,--print-url")->description("print the address only");

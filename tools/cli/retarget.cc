@@ -14,6 +14,8 @@
 #include "tools/api/run_report.h"
 #include "tools/api/version.h"
 #include "tools/cli/commands.h"
+#include "tools/report/diagnosis_text.h"
+#include "tools/report/measured_scene.h"
 #include "tools/report/metrics_table.h"
 #include "tools/report/page.h"
 #include "tools/report/series.h"
@@ -138,8 +140,10 @@ int RunRetarget(const api::RetargetOptions& options) {
   std::array<api::WrittenRig, 2> rig;
   for (int f = 0; f < 2; ++f) {
     rig[f] = WriteRig(job, result, f, scene.view());
-    checks.push_back({std::string("write-back ") + report::kFigure[f], rig[f].error_m,
-                      report::kWriteBackLimit, "m", rig[f].error_m <= report::kWriteBackLimit, ""});
+  }
+  for (const solver::RequirementCheck& check :
+       solver::CheckWritten(metrics, {rig[0].error_m, rig[1].error_m}, settings.requirements)) {
+    checks.push_back(check);
   }
   const bool all_met = solver::AllMet(checks);
   std::vector<solver::Conflict> conflicts;
@@ -174,7 +178,8 @@ int RunRetarget(const api::RetargetOptions& options) {
   }
   fmt::print("{}",
              report::MetricsTable(subject, source.metrics(), &baseline.metrics(), metrics, checks));
-  for (const solver::Conflict& conflict : conflicts) fmt::print("  {}\n", conflict.sentence);
+  for (const solver::Conflict& conflict : conflicts)
+    fmt::print("  {}\n", report::ConflictSentence(conflict, subject));
   fmt::print(
       "{} frames in {:.2f} s ({:.0f} frames/s, {} iterations), start {:.2f} s; written to {}\n",
       result.scene.num_frames(), result.solve.seconds,

@@ -69,18 +69,32 @@ TEST_F(SeriesTest, DepthFloorAndHoldFollowTheRuler) {
 }
 
 TEST_F(SeriesTest, FloorDepthIsTheWidestCapsulesAtTheLowestNode) {
-  const Body& body = subject_.body[1];
-  const int toe = Node(1, "left_toe");
-  const double height = PoseBody(body, source_[1].frames[0]).node[toe].y() - body.nodes[toe].radius;
-  for (int t = 0; t < kFrames; ++t) motion_[1].frames[t].root_position.y() -= height + 0.002 * t;
-  const FrameSeries s = Run();
-  // Toe and ankle of both feet: the lowest of the four. All sink alike.
-  const double first = s.at[0].figure[1].floor_m;
-  for (int t = 1; t < kFrames; ++t) {
-    EXPECT_NEAR(s.at[t].figure[1].floor_m, first + 0.002 * t, 1e-12);
-    EXPECT_EQ(s.at[t].figure[0].floor_m, 0);
+  // b sinks by 2 mm per frame from where its toes' capsules touch the floor. The ankles are as low:
+  // there the wider of shank and foot counts.
+  const std::array<int, 2> toe = {Node(1, "left_toe"), Node(1, "right_toe")};
+  const std::array<int, 2> ankle = {Node(1, "left_ankle"), Node(1, "right_ankle")};
+  Body& body = subject_.body[1];
+  const std::vector<Vec3> node = PoseBody(body, source_[1].frames[0]).node;
+  for (int side = 0; side < 2; ++side) {
+    ASSERT_NEAR(node[ankle[side]].y(), node[toe[0]].y(), 1e-12);
+    body.nodes[toe[side]].radius = 0.04;
   }
-  EXPECT_GE(first, 0);
+  for (int t = 0; t < kFrames; ++t) {
+    motion_[1].frames[t].root_position.y() -= node[toe[0]].y() - 0.04 + 0.002 * t;
+  }
+  for (const double shank : {0.02, 0.04, 0.055}) {
+    body.nodes[ankle[0]].radius = shank;
+    body.nodes[ankle[1]].radius = 0.03;
+    const FrameSeries s = Run();
+    const double deeper = std::max(shank, 0.04) - 0.04;
+    for (int t = 0; t < kFrames; ++t) {
+      EXPECT_NEAR(s.at[t].figure[1].floor_m, deeper + 0.002 * t, 1e-12) << shank << " " << t;
+      EXPECT_EQ(s.at[t].figure[0].floor_m, 0);
+      if (deeper > 0) {
+        EXPECT_EQ(s.at[t].figure[1].floor_node, ankle[0]);
+      }
+    }
+  }
 }
 
 TEST_F(SeriesTest, FootSpeedIsTheFastestPlantedNodeAndZeroElsewhere) {

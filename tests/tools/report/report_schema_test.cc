@@ -7,6 +7,7 @@
 #include "tests/solver/scene_fixture.h"
 #include "tests/tools/run_program.h"
 #include "tools/report/report.h"
+#include "tools/report/subject_json.h"
 
 namespace retarget::report {
 namespace {

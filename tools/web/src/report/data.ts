@@ -35,8 +35,17 @@ export interface AllSeries {
   result: Series;
 }
 
+export type RequirementKind =
+  | "tangle" | "pass_throughs" | "penetration" | "penetration_over_1cm" | "foot_drift" | "floor"
+  | "hold" | "segment_length" | "write_back";
+
 export interface Requirement {
   name: string;
+  kind: RequirementKind;
+  item: number | null; // tag or hold, from 0
+  figure: FigureName | null;
+  frame: number | null; // of the worst
+  limbs: { figure: FigureName; node: string }[];
   value: number;
   limit: number;
   unit: string;
@@ -79,9 +88,13 @@ export function readScene(variant: Variant): ArrayBuffer | null {
   return bytes.buffer;
 }
 
-// The limit of the first requirement of that name.
-export function limitOf(report: Report, name: string, otherwise: number): number {
-  return report.requirements.find((r) => r.name.startsWith(name))?.limit ?? otherwise;
+// The limit of the first requirement of that kind (and of that tag or hold), and one where the
+// report has none.
+export function limitOf(
+  report: Report, kind: RequirementKind, otherwise: number, item?: number,
+): number {
+  const is = (r: Requirement) => r.kind === kind && (item === undefined || r.item === item);
+  return report.requirements.find(is)?.limit ?? otherwise;
 }
 
 // Largest of several series, frame by frame.

@@ -36,7 +36,7 @@ export function addPlots(
       unit: `turns; a ${words(a[0])} … ${words(a[1])} × b ${words(b[0])} … ${words(b[1])}`,
       lines: linesOf(series, (s) => s.tangles[k]),
       digits: 2,
-      limit: { value: limitOf(report, `tangle ${k + 1}`, 0.5), text: "lost below" },
+      limit: { value: limitOf(report, "tangle", 0.5, k), text: "lost below" },
       range: (least, most) => [Math.min(0, least * 1.1), Math.max(1.05, most * 1.05)],
       clock,
     });
@@ -55,7 +55,8 @@ export function addPlots(
   centimetres("Penetration between the bodies", (s) => s.penetration_cm,
     100 * limitOf(report, "penetration", 0.02));
   if (series.result.hold_cm.length > 0) {
-    centimetres("Hold error", (s) => largest(s.hold_cm, series.frames), 100 * limitOf(report, "hold", 0.02));
+    centimetres("Hold error", (s) => largest(s.hold_cm, series.frames),
+      100 * limitOf(report, "hold", 0.02));
   }
   addPlot(container, {
     title: "Speed of planted feet",
