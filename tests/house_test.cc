@@ -39,7 +39,7 @@ TEST(House, EachLibraryLivesInFewFiles) {
     int most_files;
   } libraries[] = {{"#include <ceres/", "solver", 1},  {"#include <mujoco", "solver", 2},
                    {"#include <tiny_gltf", "io", 2},   {"#include <glm/", "io", 2},
-                   {"#include <yaml-cpp", "io", 1},    {"#include <CLI/", "tools", 1},
+                   {"#include <yaml-cpp", "io", 1},    {"#include <CLI/", "tools", 2},
                    {"#include <httplib.h", "tools", 2}};
   for (const auto& library : libraries) {
     std::vector<std::string> users;

@@ -10,7 +10,7 @@
 
 #include "io/load_clip.h"
 #include "model/body/template_posture.h"
-#include "tools/api/options.h"
+#include "tools/api/retarget.h"
 
 namespace retarget::cli {
 
@@ -23,21 +23,43 @@ enum ExitCode {
   kInterrupted = 130
 };
 
-int RunRetarget(const api::RetargetOptions& options);
+// Where settings come from: a file, and single ones over it.
+struct SettingsOptions {
+  std::string config_path;       // empty: the defaults
+  std::vector<std::string> set;  // "key=value"
+};
+Settings SettingsOf(const SettingsOptions& options);  // throws InputError
+
+struct RetargetOptions {
+  std::array<io::ClipOptions, 2> clip;
+  std::string template_path, config_path, out = "out", frames;
+  std::vector<std::string> set;
+  std::string show = "figures";  // of scene.glb: "figures" or "characters"
+  double fps = 30, template_at = 0;
+  int threads = -1;                // -1: as configured
+  std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines
+  bool json = false, force = false;
+  bool quiet = false;  // says nothing of the result
+};
+// As a request to the library: settings from the configuration file, then --set, then --threads.
+// Throws InputError.
+Request RequestOf(const RetargetOptions& options);
+
+int RunRetarget(const RetargetOptions& options);
 
 // Runs the forward simulation alone and writes baseline.glb and source.glb.
-int RunSimulate(const api::RetargetOptions& options);
+int RunSimulate(const RetargetOptions& options);
 
 int RunVerify(const std::string& folder, bool json);
 int RunCompare(const std::vector<std::string>& folders, bool json);
-int RunTangles(const std::string& path, const api::SettingsOptions& settings, bool json);
+int RunTangles(const std::string& path, const SettingsOptions& settings, bool json);
 int RunMap(const io::ClipOptions& clip, bool json, bool yaml);
 // The clip with left and right exchanged.
 int RunMirror(const io::ClipOptions& options, const std::string& out, bool force);
 // What is in a motion or character file of any format.
 int RunInspect(const io::ClipOptions& clip, bool json);
-int RunConfig(const api::SettingsOptions& settings);
-int RunTemplateCheck(const std::string& path, const api::SettingsOptions& settings, bool json);
+int RunConfig(const SettingsOptions& settings);
+int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, bool json);
 
 struct FromClipsOptions {
   std::array<io::ClipOptions, 2> clip;
@@ -58,7 +80,7 @@ struct PoseCommandOptions {
   };
   std::vector<Step> steps;
   std::string out;
-  api::SettingsOptions settings;
+  SettingsOptions settings;
   bool json = false, force = false;
 };
 int RunPose(const PoseCommandOptions& options);
@@ -78,7 +100,7 @@ struct StudioOptions {
   std::string template_path, photo_path;  // to begin with; empty: none
   std::string library;                    // folder; empty: the shipped one and the user's own
   std::array<io::ClipOptions, 2> clip;    // to try a posture on
-  api::SettingsOptions settings;          // of its queries
+  SettingsOptions settings;          // of its queries
   int port = 0;                           // 0: any that is free
   bool browser = true;                    // open the page
 };
@@ -86,6 +108,9 @@ int RunStudio(const StudioOptions& options);
 
 // Of a run's folder, or of a template's file.
 int RunRender(const std::string& path, const std::string& out, bool force);
+
+// To stderr, a line each, from the `from`-th on.
+void PrintNotes(const std::vector<std::string>& notes, size_t from);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.
 void CatchInterrupts();

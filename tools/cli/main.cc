@@ -8,8 +8,8 @@
 
 #include "io/recognition/recognise.h"
 #include "io/settings_file.h"
-#include "tools/api/job.h"
 #include "tools/api/version.h"
+#include "tools/cli/command_spec.h"
 #include "tools/cli/commands.h"
 #include "tools/posing/words.h"
 #include "tools/studio/library.h"
@@ -27,8 +27,8 @@ int RunMap(const io::ClipOptions& options, bool json, bool yaml) {
   return kDone;
 }
 
-int RunConfig(const api::SettingsOptions& settings) {
-  fmt::print("{}", io::FormatSettings(api::SettingsOf(settings)));
+int RunConfig(const SettingsOptions& settings) {
+  fmt::print("{}", io::FormatSettings(SettingsOf(settings)));
   return kDone;
 }
 
@@ -67,19 +67,19 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
       ->group(group);
 }
 
-void AddSettings(CLI::App* app, api::SettingsOptions* settings) {
+void AddSettings(CLI::App* app, SettingsOptions* settings) {
   app->add_option("--config", settings->config_path, "weights and settings (YAML)");
   app->add_option("--set", settings->set, "one setting, such as tangle.max_tags=3 (repeatable)");
 }
 
 struct CommandLine {
-  api::RetargetOptions retarget;
+  RetargetOptions retarget;
   FromClipsOptions from_clips;
   PoseCommandOptions pose;
   GalleryOptions gallery;
   StudioOptions studio;
   io::ClipOptions map_clip;
-  api::SettingsOptions settings;
+  SettingsOptions settings;
   std::string folder, file, check, picture;
   std::vector<std::string> clips, folders;
   bool json = false, yaml = false, force = false;
@@ -93,6 +93,19 @@ struct CommandLine {
     AddTemplate(app);
     AddPose(app);
     AddStudio(app);
+    AddCompletion(app);
+  }
+
+  void AddCompletion(CLI::App* app) {
+    CLI::App* completion = app->add_subcommand(
+        "completion", "a completion script for a shell, or the manual page, on stdout");
+    completion->add_option("kind", file, "bash, zsh, fish or man")
+        ->required()
+        ->check(CLI::IsMember(kCompletionKinds));
+    completion->callback([this, app] {
+      fmt::print("{}", FormatCompletion(SpecOf(*app), file));
+      code = kDone;
+    });
   }
 
   void AddRetarget(CLI::App* app) {
@@ -108,7 +121,7 @@ struct CommandLine {
 
   // The options that say which clips are to be tangled how.
   void AddScene(CLI::App* app) {
-    api::RetargetOptions& o = retarget;
+    RetargetOptions& o = retarget;
     app->add_option(
         "--clip-a", o.clip[0].path,
         "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");

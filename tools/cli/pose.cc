@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "io/template_file.h"
-#include "tools/api/job.h"
 #include "tools/cli/commands.h"
 #include "tools/posing/queries.h"
 #include "tools/posing/session.h"
@@ -83,7 +82,7 @@ report::Json NodesJson(const TemplatePosture& posture) {
 }  // namespace
 
 int RunPose(const PoseCommandOptions& options) {
-  posing::PoseSession session(StartOf(options), api::SettingsOf(options.settings));
+  posing::PoseSession session(StartOf(options), SettingsOf(options.settings));
   report::Json solves = report::Json::array();
   bool missed = false;
   for (const PoseCommandOptions::Step& step : options.steps) {

@@ -8,7 +8,6 @@
 
 #include "io/files.h"
 #include "io/template_file.h"
-#include "tools/api/job.h"
 #include "tools/cli/commands.h"
 #include "tools/report/embedded_page.h"
 #include "tools/studio/child_process.h"
@@ -21,7 +20,7 @@ namespace {
 
 studio::StudioStart StartOf(const StudioOptions& options, studio::StudioLibrary* library) {
   studio::StudioStart start;
-  start.settings = api::SettingsOf(options.settings);
+  start.settings = SettingsOf(options.settings);
   start.has_template = !options.template_path.empty();
   start.posture = start.has_template ? studio::PostureOfLibrary(library, library->named_id())
                                      : studio::UnsavedPosture(posing::RestPosture(1.75, 1.75, 1));

@@ -11,7 +11,6 @@
 #include "solver/metrics/metrics.h"
 #include "solver/start/fit_template.h"
 #include "tools/api/clip_posture.h"
-#include "tools/api/job.h"
 #include "tools/api/template_check.h"
 #include "tools/cli/commands.h"
 #include "tools/report/requirement_json.h"
@@ -83,8 +82,8 @@ Found FindIn(const std::string& path, const TangleSettings& settings) {
 
 }  // namespace
 
-int RunTangles(const std::string& path, const api::SettingsOptions& settings, bool json) {
-  const Found found = FindIn(path, api::SettingsOf(settings).tangle);
+int RunTangles(const std::string& path, const SettingsOptions& settings, bool json) {
+  const Found found = FindIn(path, SettingsOf(settings).tangle);
   const Body &a = found.body[0], &b = found.body[1];
   if (json) {
     report::Json out = {{"literal", report::Json::array()}, {"tags", report::Json::array()}};
@@ -111,9 +110,9 @@ int RunTangles(const std::string& path, const api::SettingsOptions& settings, bo
   return kDone;
 }
 
-int RunTemplateCheck(const std::string& path, const api::SettingsOptions& settings, bool json) {
+int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, bool json) {
   const TemplatePosture posture = io::ReadTemplate(path);
-  const api::TemplateCheck check = api::CheckTemplate(posture, api::SettingsOf(settings));
+  const api::TemplateCheck check = api::CheckTemplate(posture, SettingsOf(settings));
   const solver::TemplateTangles& tangles = check.tangles;
   const solver::Metrics& metrics = check.metrics;
   const std::vector<solver::RequirementCheck>& checks = check.checks;
