@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/files.h"
 #include "io/load_clip.h"
 #include "model/body/template_posture.h"
 #include "tools/api/retarget.h"
@@ -44,6 +45,11 @@ struct RetargetOptions {
 // As a request to the library: settings from the configuration file, then --set, then --threads.
 // Throws InputError.
 Request RequestOf(const RetargetOptions& options);
+
+// What the program calls the options of a clip.
+io::OptionWords ProgramWords();
+// A refusal to write, with the options that help.
+std::string WriteRefusalText(const io::WriteRefusal& refusal);
 
 int RunRetarget(const RetargetOptions& options);
 
@@ -100,7 +106,7 @@ struct StudioOptions {
   std::string template_path, photo_path;  // to begin with; empty: none
   std::string library;                    // folder; empty: the shipped one and the user's own
   std::array<io::ClipOptions, 2> clip;    // to try a posture on
-  SettingsOptions settings;          // of its queries
+  SettingsOptions settings;               // of its queries
   int port = 0;                           // 0: any that is free
   bool browser = true;                    // open the page
 };

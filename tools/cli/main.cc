@@ -39,6 +39,7 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
   const std::string suffix = figure.empty() ? "" : "-" + figure;
   const std::string group = figure.empty() ? "Options" : "Clip " + figure;
   clip->option = figure;
+  clip->words = ProgramWords();
   app->add_option("--units" + suffix, clip->units,
                   "cm, m, mm, in, cmu or metres per unit (default: guess)")
       ->group(group);
@@ -371,6 +372,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     fmt::print(stderr, "retarget: {}; see `retarget --help`\n", error.what());
+    return kBadInput;
+  } catch (const io::WriteRefusal& refusal) {
+    fmt::print(stderr, "retarget: {}\n", WriteRefusalText(refusal));
     return kBadInput;
   } catch (const InputError& error) {
     fmt::print(stderr, "retarget: {}\n", error.what());

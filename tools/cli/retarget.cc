@@ -70,7 +70,7 @@ void CatchInterrupts() {
 Settings SettingsOf(const SettingsOptions& options) {
   Settings settings =
       options.config_path.empty() ? Settings{} : io::ReadSettings(options.config_path);
-  for (const std::string& assignment : options.set) io::SetByName(&settings, assignment);
+  for (const std::string& assignment : options.set) io::SetByName(&settings, assignment, "--set");
   return settings;
 }
 
