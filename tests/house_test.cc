@@ -190,6 +190,27 @@ bool IsIn(const std::string& folder, const Names& folders) {
   });
 }
 
+// What the command line calls its options is known to the tools alone.
+TEST(House, NoOptionIsNamedBelowTheTools) {
+  const std::regex option("\"(?:[^\"\\\\\n]|\\\\.)*--[a-z]");
+  EXPECT_TRUE(std::regex_search(std::string("f(\"give \\\"it\\\" with --units\")"), option));
+  int checked = 0;
+  for (const char* folder : {"model", "solver", "io"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(ProjectPath(folder))) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cc") continue;
+      std::istringstream text(ReadWholeFile(entry.path()));
+      std::string line;
+      while (std::getline(text, line)) {
+        if (line.find("#include") != std::string::npos) continue;
+        EXPECT_FALSE(std::regex_search(line, option)) << entry.path() << ": " << line;
+      }
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 150);
+}
+
 TEST(House, EachLibraryLivesInFewFiles) {
   const std::regex standard("[a-z_]+"), eigen("Eigen/[A-Za-z]+");
   std::map<std::string, Names> users;

@@ -309,15 +309,16 @@ class Run {
       if (-off.y() < kFallen * scene_.body[f].stature) continue;
       char text[100];
       std::snprintf(text, sizeof text, "%s fell at frame %d", f == 0 ? "a" : "b", t);
-      Stop(SimulationStatus::kFell, text);
+      Stop(SimulationStatus::kFell, text, t);
       return true;
     }
     return false;
   }
 
-  void Stop(SimulationStatus status, const std::string& message) {
+  void Stop(SimulationStatus status, const std::string& message, int frame = -1) {
     result_.status = status;
     result_.message = message;
+    result_.frame = frame;
   }
 
   // What became of the tags in the frames that were simulated.
@@ -359,11 +360,12 @@ class Run {
       if (!at_end && last + 1 < least) continue;
       const auto name = [&](int f, int n) { return scene_.body[f].nodes[n].name; };
       const Tangle& t = held.tag.tangle;
-      Stop(SimulationStatus::kLostHold, "it lost the tag a (" + name(0, t.a.from) + ", " +
-                                            name(0, t.a.to) + ") x b (" + name(1, t.b.from) + ", " +
-                                            name(1, t.b.to) + ") for good " +
-                                            (at_end ? "at frame " + std::to_string(first)
-                                                    : "before frame " + std::to_string(last + 1)));
+      Stop(SimulationStatus::kLostHold,
+           "it lost the tag a (" + name(0, t.a.from) + ", " + name(0, t.a.to) + ") x b (" +
+               name(1, t.b.from) + ", " + name(1, t.b.to) + ") for good " +
+               (at_end ? "at frame " + std::to_string(first)
+                       : "before frame " + std::to_string(last + 1)),
+           at_end ? first : last + 1);
       return;
     }
   }
@@ -377,7 +379,8 @@ class Run {
       if (jump.size > kPassThrough) {
         Stop(SimulationStatus::kPassedThrough,
              scene_.body[0].nodes[jump.node_a].name + " of a went through " +
-                 scene_.body[1].nodes[jump.node_b].name + " of b at frame " + std::to_string(t));
+                 scene_.body[1].nodes[jump.node_b].name + " of b at frame " + std::to_string(t),
+             t);
         return;
       }
       before = now;
@@ -390,7 +393,7 @@ class Run {
     char text[100];
     std::snprintf(text, sizeof text, "%s strayed %.2f m from its way at frame %d",
                   stray_.figure == 0 ? "a" : "b", stray_.distance_m, stray_.frame);
-    Stop(SimulationStatus::kStrayed, text);
+    Stop(SimulationStatus::kStrayed, text, stray_.frame);
   }
 
   // Where a root was furthest from where the control wanted it.

@@ -2,7 +2,7 @@
 //   node gli_test.mjs GOLDEN_DIR WEB_BUILD
 // Exit code 77 where the pages' tools are not there.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { canBundle, modulesOf } from "./bundle.mjs";

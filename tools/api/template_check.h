@@ -20,7 +20,8 @@ struct TemplateCheck {
 };
 inline constexpr double kWeakGli = 0.6;     // turns: a tag under it is weak
 inline constexpr double kEasilyLost = 0.1;  // robustness radius of a tag (rad, m)
-TemplateCheck CheckTemplate(const TemplatePosture& posture);
+// With the tags and against the requirements of these settings.
+TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& settings = {});
 // What is to be said of weak tags.
 std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags);
 

@@ -102,6 +102,35 @@ TEST_F(SeriesTest, FloorDepthIsThatOfTheLowestCapsule) {
   EXPECT_GE(lowest_nodes.size(), 3u);
 }
 
+TEST_F(SeriesTest, FloorDepthIsTheWidestCapsulesAtTheLowestNode) {
+  // b sinks by 2 mm per frame from where its toes' capsules touch the floor. The ankles are as low:
+  // there the wider of shank and foot counts.
+  const std::array<int, 2> toe = {Node(1, "left_toe"), Node(1, "right_toe")};
+  const std::array<int, 2> ankle = {Node(1, "left_ankle"), Node(1, "right_ankle")};
+  Body& body = subject_.body[1];
+  const std::vector<Vec3> node = PoseBody(body, source_[1].frames[0]).node;
+  for (int side = 0; side < 2; ++side) {
+    ASSERT_NEAR(node[ankle[side]].y(), node[toe[0]].y(), 1e-12);
+    body.nodes[toe[side]].radius = 0.04;
+  }
+  for (int t = 0; t < kFrames; ++t) {
+    motion_[1].frames[t].root_position.y() -= node[toe[0]].y() - 0.04 + 0.002 * t;
+  }
+  for (const double shank : {0.02, 0.04, 0.055}) {
+    body.nodes[ankle[0]].radius = shank;
+    body.nodes[ankle[1]].radius = 0.03;
+    const FrameSeries s = Run();
+    const double deeper = std::max(shank, 0.04) - 0.04;
+    for (int t = 0; t < kFrames; ++t) {
+      EXPECT_NEAR(s.at[t].figure[1].floor_m, deeper + 0.002 * t, 1e-12) << shank << " " << t;
+      EXPECT_EQ(s.at[t].figure[0].floor_m, 0);
+      if (deeper > 0) {
+        EXPECT_EQ(s.at[t].figure[1].floor_node, ankle[0]);
+      }
+    }
+  }
+}
+
 TEST_F(SeriesTest, FootSpeedIsTheFastestPlantedNodeAndZeroElsewhere) {
   // a moves 2 mm per frame: 6 cm/s at 30 fps. Planted from frame 2 to 5.
   for (int t = 0; t < kFrames; ++t) motion_[0].frames[t].root_position.x() += 0.002 * t;

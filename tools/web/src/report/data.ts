@@ -1,7 +1,7 @@
 // What the page holds: report.json, the series by frame, and the scenes (docs/report.md).
 
 import type { PerFigure } from "../shared/names";
-import type { Requirement } from "../shared/requirement";
+import type { Requirement, RequirementKind } from "../shared/requirement";
 
 export const variants = ["source", "baseline", "result"] as const;
 export type Variant = (typeof variants)[number];
@@ -44,7 +44,12 @@ export interface Report {
   requirements: Requirement[];
   simulation?: null | { status: string; message: string };
   solve: {
-    history: { stage: number; iteration: number; cost: number; terms?: Record<string, number> }[];
+    history: {
+      stage: number;
+      iteration: number;
+      cost: number;
+      terms?: Record<string, number>;
+    }[];
   };
 }
 
@@ -71,9 +76,16 @@ export function readScene(variant: Variant): ArrayBuffer | null {
   return bytes.buffer;
 }
 
-// The limit of the first requirement of that name.
-export function limitOf(report: Report, name: string, otherwise: number): number {
-  return report.requirements.find((r) => r.name.startsWith(name))?.limit ?? otherwise;
+// The limit of the first requirement of that kind (and of that tag or hold), and one where the
+// report has none.
+export function limitOf(
+  report: Report,
+  kind: RequirementKind,
+  otherwise: number,
+  item?: number,
+): number {
+  const is = (r: Requirement) => r.kind === kind && (item === undefined || r.item === item);
+  return report.requirements.find(is)?.limit ?? otherwise;
 }
 
 // Largest of several series, frame by frame.

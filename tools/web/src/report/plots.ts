@@ -57,7 +57,10 @@ export function addPlots(
       unit: `turns; a ${words(a[0])} … ${words(a[1])} × b ${words(b[0])} … ${words(b[1])}`,
       lines: linesOf(series, (s) => s.tangles[k]),
       digits: 2,
-      limit: { value: limitOf(report, `tangle ${k + 1}`, kTangled), text: "lost below" },
+      limit: {
+        value: limitOf(report, "tangle", kTangled, k),
+        text: "lost below",
+      },
       range: (least, most) => [Math.min(0, least * 1.1), Math.max(1.05, most * 1.05)],
       clock,
     });
@@ -112,7 +115,12 @@ export function addCost(container: HTMLElement, report: Report): void {
     .slice(0, kTermColours.length - 1);
   const positive = (value?: number) => (value !== undefined && value > 0 ? value : null);
   const lines: Line[] = [
-    { label: "total", values: history.map((h) => positive(h.cost)), colour: "--ink", width: 2.5 },
+    {
+      label: "total",
+      values: history.map((h) => positive(h.cost)),
+      colour: "--ink",
+      width: 2.5,
+    },
     ...parts.map((term, k) => ({
       label: words(term),
       values: history.map((h) => positive(h.terms?.[term])),
