@@ -17,6 +17,9 @@ if ! cmp -s tests/tools/package.json build/node/installed.json; then
     echo "test: gltf-validator and playwright-core are not available; their tests are skipped" >&2
   fi
 fi
+# Format and lint of the pages.
+npm ci --prefix tests/web/style --ignore-scripts --no-audit --no-fund --loglevel=error ||
+  echo "test: prettier and eslint are not available; test Web.Style is skipped" >&2
 export RETARGET_NODE_MODULES=$PWD/build/node
 status=0
 ctest --preset release -j "$(nproc)" --output-junit "$PWD/build/release/tests.xml" || status=$?

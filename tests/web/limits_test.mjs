@@ -1,5 +1,5 @@
 // The pages' reading of joint limits, against rotations made from known angles, and against what
-// the program says of the same rotations (solver/terms/joint_limit.h):
+// the program says of the same rotations (solver/problem/terms/joint_limit.h):
 //   node limits_test.mjs RETARGET WEB_BUILD
 // Exit code 77 where the program has no studio or the pages' tools are not there.
 import assert from "node:assert/strict";

@@ -18,8 +18,8 @@ before(async () => {
 });
 after(() => browser?.close());
 
-// A test that nothing is left for of the one before: with a server, a library and so a session of
-// its own. `args` are the server's; without a template it begins with two T-poses. `prepare` is
+// A test with a server, a library and so a session of its own: nothing is left of the one before.
+// `args` are the server's; without a template it begins with two T-poses. `prepare` is
 // told the library's folder, still empty. The size is that of the page: fewer pixels are less work
 // for a processor that draws.
 export function studioTest(name, { args = [], prepare, ...size }, act) {
@@ -32,6 +32,7 @@ export function studioTest(name, { args = [], prepare, ...size }, act) {
       await open();
       await act();
       assert.deepEqual(noise, []);
+      await page.goto("about:blank"); // before the server goes, which the studio would miss
     } catch (error) {
       await page?.context().close();
       page = null;
@@ -45,14 +46,13 @@ export function studioTest(name, { args = [], prepare, ...size }, act) {
 // The tab is kept as long as all goes well, since a new one takes its time. Each server has a port,
 // and the page by it a storage, of its own.
 async function blankPage({ width = 1060, height = 620 }) {
-  noise.splice(0);
   if (!page) {
     page = await browser.newPage();
     listen(page, noise);
   }
-  await page.goto("about:blank");
   await page.setViewportSize({ width, height });
   await page.mouse.move(0, 0);
+  noise.splice(0);
 }
 
 // Ends the studio and starts it anew at the same port; the page opens what it is given.
@@ -62,8 +62,8 @@ export async function restart(...args) {
 }
 
 async function open() {
-  const reply = await page.goto(server.url, { timeout: 120000 });
-  if ((await reply.text()).length < 1e5) skip("the program was built without the studio's page");
+  await page.goto(server.url, { timeout: 120000 });
+  if ((await page.content()).length < 1e5) skip("the program was built without the studio's page");
   await until(() => Boolean(window.retargetStudio));
   await idle();
 }

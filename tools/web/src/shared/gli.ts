@@ -1,6 +1,6 @@
 // Gauss Linking Integral of straight segments (Ho and Komura 2007, Eq. 1), in turns. The closed
 // form is the signed solid angle of a parallelogram (van Oosterom and Strackee 1983); the same as
-// model/gli.cc.
+// model/geometry/gli.cc.
 
 import { numSegments, parentOf } from "./body";
 

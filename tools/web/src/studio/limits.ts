@@ -1,5 +1,6 @@
-// What a joint's limits say of its rotation, as solver/terms/joint_limit.cc has it: R = swing *
-// twist about the bone's direction in the rest pose. Angles and rotation vectors in degrees.
+// What a joint's limits say of its rotation, as solver/problem/terms/joint_limit.cc has it:
+// R = swing * twist about the bone's direction in the rest pose. Angles and rotation vectors in
+// degrees.
 
 import { MathUtils, Quaternion, Vector3 } from "three";
 import type { Limits, Vec } from "./protocol";

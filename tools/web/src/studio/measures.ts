@@ -3,7 +3,8 @@
 import type { Hold, Vec } from "./protocol";
 
 const kOpen = 0.01; // m
-const kStands = 0.15; // m over the floor; as StandingNodes of model/template_posture.h
+// m over the floor; as StandingNodes of model/body/template_posture.h
+const kStands = 0.15;
 
 // Whether the two points of a hold are apart.
 export const isOpen = ({ error_m }: Hold) => error_m > kOpen;

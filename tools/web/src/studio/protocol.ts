@@ -159,7 +159,7 @@ export interface Reply {
   result?: Result | null;
   warning?: string;
 }
-// One operation of tools/pose_operations.h: {op: "drag", figure: "a", ...}.
+// One operation of tools/posing/operations.h: {op: "drag", figure: "a", ...}.
 export type Op = { op: string } & Record<string, unknown>;
 
 export interface TemplateInfo {
