@@ -7,7 +7,8 @@
 
 #include "solver/problem/problem.h"
 #include "solver/problem/terms/ray.h"
-#include "solver/problem/terms/tracking.h"
+#include "solver/problem/terms/pose_tracking.h"
+#include "solver/problem/terms/root_tracking.h"
 #include "tests/solver/scene_fixture.h"
 
 namespace retarget::solver {
