@@ -176,15 +176,38 @@ ClipPath ParseClipPath(const std::string& text) {
   return out;
 }
 
+ClipPath ParseClipName(const std::string& text, bool with_skeleton) {
+  ClipPath out;
+  out.path = text;
+  const size_t mark = text.rfind(with_skeleton ? ':' : '#');
+  if (mark == std::string::npos) {
+    if (with_skeleton) out.skeleton = "skeleton of " + text;
+    return out;
+  }
+  if (with_skeleton) {
+    out.skeleton = text.substr(0, mark);
+    out.path = text.substr(mark + 1);
+  } else {
+    out.path = text.substr(0, mark);
+    ParseSelection(text, text.substr(mark + 1), &out.select);
+  }
+  return out;
+}
+
 ClipFile ReadClipFile(const ClipPath& path, double fps) {
   std::string bytes = ReadBytes(path.path);
+  return ParseClipFile(path, std::move(bytes),
+                       path.skeleton.empty() ? std::string() : ReadBytes(path.skeleton), fps);
+}
+
+ClipFile ParseClipFile(const ClipPath& path, std::string bytes, const std::string& skeleton,
+                       double fps) {
   const Format format = FormatOf(bytes);
   const bool selected = !path.select.animation.empty() || !path.select.skin.empty();
   if (selected && format != Format::kGltf) {
     throw InputError(path.path + ": is no glTF file, so #animation and #skin mean nothing");
   }
   if (!path.skeleton.empty()) {
-    const std::string skeleton = ReadBytes(path.skeleton);
     if (FormatOf(skeleton) != Format::kAsf) {
       throw InputError(path.skeleton + ": expected an Acclaim skeleton (ASF) before the ':'");
     }

@@ -11,6 +11,7 @@
 #include "io/acclaim/acclaim.h"
 #include "io/bvh/bvh.h"
 #include "io/gltf/clip.h"
+#include "io/named_bytes.h"
 
 namespace retarget::io {
 
@@ -25,6 +26,8 @@ struct ClipPath {
   GltfSelect select;
 };
 ClipPath ParseClipPath(const std::string& text);  // throws InputError
+// The same of files in memory: what stands before '#', or on either side of ':', is only a name.
+ClipPath ParseClipName(const std::string& text, bool with_skeleton);
 
 struct ClipFile {
   RigMotion motion;
@@ -42,13 +45,14 @@ struct ClipFile {
 // `fps`: of an Acclaim motion, which does not say. Throws InputError.
 ClipFile ReadClipFile(const ClipPath& path, double fps = kAcclaimFps);
 ClipFile ReadClipFile(const std::string& text);
+// The same from bytes; `skeleton` is that of an Acclaim motion, else empty. Buffers that a .gltf
+// names are looked for beside `path`.
+ClipFile ParseClipFile(const ClipPath& path, std::string bytes, const std::string& skeleton,
+                       double fps = kAcclaimFps);
 
 // Files that hold `motion` in the format of `original`, the first of them the motion itself; names
 // begin with `stem`: a.bvh, a.glb, a.gltf with the files it refers to, a.amc with its a.asf.
 // `stature_ratio` is that of the body the motion is for, over the file's own.
-struct NamedBytes {
-  std::string name, bytes;
-};
 std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion& motion,
                                        const std::string& stem, double stature_ratio);
 // The names alone.

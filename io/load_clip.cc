@@ -17,9 +17,15 @@ constexpr double kThinnest = 0.6, kThickest = 1.5;
 LoadedClip ReadClip(const ClipOptions& options) {
   LoadedClip clip;
   clip.options = options;
-  ClipPath path = ParseClipPath(options.path);
+  const bool in_memory = !options.bytes.empty();
+  ClipPath path = in_memory ? ParseClipName(options.path, !options.skeleton_bytes.empty())
+                            : ParseClipPath(options.path);
   path.select.any_animation = options.any_animation;
-  clip.file = ReadClipFile(path, options.amc_fps);
+  clip.file = in_memory
+                  ? ParseClipFile(path, options.bytes, options.skeleton_bytes, options.amc_fps)
+                  : ReadClipFile(path, options.amc_fps);
+  clip.options.bytes.clear();  // the file has them
+  clip.options.skeleton_bytes.clear();
   clip.hash = HashOf(clip.file.bytes);
   return clip;
 }

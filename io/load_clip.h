@@ -6,25 +6,11 @@
 #include <string>
 
 #include "io/clip_file.h"
+#include "io/clip_options.h"
 #include "io/recognition/recognise.h"
 #include "model/rig/binding.h"
 
 namespace retarget::io {
-
-struct ClipOptions {
-  std::string path;            // as ParseClipPath takes it
-  std::string option;          // "a" or "b": which options messages name
-  double start = 0;            // s into the clip
-  double stature = 0;          // m, 0: the clip's own
-  std::string units;           // as given, empty: as the file says, or guess
-  std::string up;              // "y", "z", empty: as the file says, or guess
-  std::string map;             // path of a joint map, empty: guess
-  bool any_animation = false;  // of several, none of them selected, the first
-  int skip_frames = 0;         // dropped from the beginning
-  double amc_fps = 120;        // of Acclaim motions, which do not say
-  std::string character;       // path of a character that takes over the motion, empty: none
-  std::string character_map;   // joint map of the character
-};
 
 struct LoadedClip {
   ClipOptions options;

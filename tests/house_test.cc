@@ -21,6 +21,7 @@ struct SourceFile {
   bool is_header() const { return path.ends_with(".h"); }
 };
 
+// All but the examples, which are programs of others that use what is installed.
 const std::vector<SourceFile>& SourceFiles() {
   static const std::vector<SourceFile> files = [] {
     const std::regex include(R"((?:^|\n)#include ([<"])([^>"]+)[>"])");
@@ -28,7 +29,8 @@ const std::vector<SourceFile>& SourceFiles() {
     for (const char* layer : {"model", "solver", "io", "tools"}) {
       fs::recursive_directory_iterator entries(ProjectPath(layer));
       for (auto entry = begin(entries); entry != end(entries); ++entry) {
-        if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+        const std::string name = entry->path().filename();
+        if (name == "node_modules" || name == "examples") entry.disable_recursion_pending();
         const std::string extension = entry->path().extension();
         if (extension != ".h" && extension != ".cc") continue;
         const fs::path path = fs::relative(entry->path(), RETARGET_SOURCE_DIR);
@@ -176,7 +178,7 @@ const std::vector<Library>& Libraries() {
       {"yaml-cpp/", {"io/text"}, {}, 1},
       {"png.h", {"io/render"}, {}, 1},
       {"stb/", {"io/render"}, {}, 1},
-      {"CLI/", {"tools/cli"}, {}, 1},
+      {"CLI/", {"tools/cli"}, {}, 2},
       {"httplib.h", {"tools/studio", "tools/bench"}, {}, 2},
       {"benchmark/", {"tools/bench"}, {}, kAnyNumber},
       {"nlohmann/",

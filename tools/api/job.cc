@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "io/files.h"
 #include "io/scene/character_scene.h"
 #include "io/scene/scene_glb.h"
-#include "io/settings_file.h"
 #include "io/template_file.h"
 #include "tools/api/version.h"
 #include "tools/report/report.h"
@@ -15,35 +15,28 @@
 namespace retarget::api {
 namespace {
 
-FrameRange ParseFrames(const std::string& text, int available) {
-  if (text.empty()) return {0, available};
-  int first = 0, last = 0, read = 0;
-  const bool parsed = std::sscanf(text.c_str(), "%d:%d%n", &first, &last, &read) == 2 &&
-                      read == static_cast<int>(text.size());
-  if (!parsed || first < 0 || last <= first) {
-    throw InputError(fmt::format("--frames {}: expected i:j with 0 <= i < j", text));
+// The request's frames, or all.
+FrameRange CheckedFrames(const std::optional<FrameRange>& frames, int available) {
+  if (!frames) return {0, available};
+  if (frames->first < 0 || frames->last <= frames->first) {
+    throw InputError(
+        fmt::format("--frames {}:{}: expected i:j with 0 <= i < j", frames->first, frames->last));
   }
-  if (last > available) {
-    throw InputError(fmt::format(
-        "--frames {}: the clips have {} common output frames from their starts", text, available));
+  if (frames->last > available) {
+    throw InputError(
+        fmt::format("--frames {}:{}: the clips have {} common output frames from their starts",
+                    frames->first, frames->last, available));
   }
-  return {first, last};
+  return *frames;
 }
 
 }  // namespace
 
-Settings EffectiveSettings(const RetargetOptions& options) {
-  Settings settings =
-      options.config_path.empty() ? Settings{} : io::ReadSettings(options.config_path);
-  for (const std::string& assignment : options.set) io::SetByName(&settings, assignment);
-  if (options.threads >= 0) settings.solve.threads = options.threads;
-  solver::ParseStages(settings.solve.stages);
-  return settings;
-}
-
-std::vector<std::string> InputPaths(const RetargetOptions& options) {
-  std::vector<std::string> paths = {options.template_path};
-  for (const io::ClipOptions& clip : options.clip) {
+std::vector<std::string> InputPaths(const Request& request) {
+  std::vector<std::string> paths;
+  if (request.template_text.empty()) paths.push_back(request.template_path);
+  for (const io::ClipOptions& clip : request.clip) {
+    if (!clip.bytes.empty()) continue;
     for (const std::string& text : {clip.path, clip.character}) {
       const io::ClipPath path = io::ParseClipPath(text);
       paths.push_back(path.path);
@@ -53,47 +46,66 @@ std::vector<std::string> InputPaths(const RetargetOptions& options) {
   return paths;
 }
 
-Job LoadJob(const RetargetOptions& options) {
+Job LoadJob(const Request& request) {
   Job job;
-  job.input.posture = io::ReadTemplate(options.template_path);
+  job.request = request;
+  for (io::ClipOptions& clip : job.request.clip) clip.bytes = clip.skeleton_bytes = "";
+  job.template_text =
+      request.template_text.empty() ? io::ReadFile(request.template_path) : request.template_text;
+  job.input.posture = io::ParseTemplate(job.template_text, request.template_path);
   double common = 1e300;
   for (int f = 0; f < 2; ++f) {
-    job.clip[f] = io::LoadClip(options.clip[f]);
-    common = std::min(common, job.clip[f].duration() - options.clip[f].start);
+    job.clip[f] = io::LoadClip(request.clip[f]);
+    common = std::min(common, job.clip[f].duration() - request.clip[f].start);
   }
   const auto is_gltf = [](const io::LoadedClip& clip) { return clip.file.format == "glTF"; };
-  if (options.show == "characters" && !is_gltf(job.clip[0]) && !is_gltf(job.clip[1])) {
+  if (request.show == Show::kCharacters && !is_gltf(job.clip[0]) && !is_gltf(job.clip[1])) {
     throw InputError("--show characters: neither clip is, or is put on, a glTF character");
   }
-  const int available = static_cast<int>(std::floor(common * options.fps + 1e-3)) + 1;
-  job.frames = ParseFrames(options.frames, available);
+  const int available = static_cast<int>(std::floor(common * request.fps + 1e-3)) + 1;
+  job.frames = CheckedFrames(request.frames, available);
   for (int f = 0; f < 2; ++f) {
     job.input.body[f] = job.clip[f].body;
-    job.input.clip[f] = job.clip[f].Resampled(options.fps, job.frames.first, job.frames.last);
-    job.input.stiff[f] = job.clip[f].StiffTurns(options.fps, job.frames.first, job.frames.last);
+    job.input.clip[f] = job.clip[f].Resampled(request.fps, job.frames.first, job.frames.last);
+    job.input.stiff[f] = job.clip[f].StiffTurns(request.fps, job.frames.first, job.frames.last);
   }
-  const double at = std::round(options.template_at * options.fps) - job.frames.first;
+  const double at = std::round(request.template_at * request.fps) - job.frames.first;
   if (at < 0 || at >= job.frames.last - job.frames.first) {
     throw InputError(fmt::format(
         "--template-at {}: lies outside the solved frames ({:.3f} to {:.3f} s)",
-        options.template_at, job.frames.first / options.fps, (job.frames.last - 1) / options.fps));
+        request.template_at, job.frames.first / request.fps, (job.frames.last - 1) / request.fps));
   }
   job.input.template_frame = static_cast<int>(at);
   return job;
 }
 
-void TellNotes(const Job& job) {
+std::vector<std::string> RecognitionNotes(const Job& job) {
+  std::vector<std::string> notes;
   for (int f = 0; f < 2; ++f) {
-    const RigFacts& facts = job.clip[f].facts;
-    fmt::print(stderr, "clip {}: {}, profile {}, {} up {}, stature {:.2f} m\n", report::kFigure[f],
-               job.clip[f].options.path, facts.map.profile, facts.unit_name, facts.up,
-               job.input.body[f].stature);
-    if (!job.clip[f].options.character.empty()) {
-      fmt::print(stderr, "  on {}{}\n", job.clip[f].options.character,
-                 job.clip[f].skin_radii ? ", capsules as wide as its skin" : "");
+    const io::LoadedClip& clip = job.clip[f];
+    const RigFacts& facts = clip.facts;
+    notes.push_back(fmt::format("clip {}: {}, profile {}, {} up {}, stature {:.2f} m",
+                                report::kFigure[f], clip.options.path, facts.map.profile,
+                                facts.unit_name, facts.up, job.input.body[f].stature));
+    if (!clip.options.character.empty()) {
+      notes.push_back(fmt::format("  on {}{}", clip.options.character,
+                                  clip.skin_radii ? ", capsules as wide as its skin" : ""));
     }
-    for (const std::string& note : facts.notes) fmt::print(stderr, "  note: {}\n", note);
+    for (const std::string& note : facts.notes) notes.push_back("  note: " + note);
   }
+  return notes;
+}
+
+std::vector<std::string> OutputNames(const Job& job) {
+  std::vector<std::string> names = {"scene.glb", "source.glb", "baseline.glb", "report.json",
+                                    "config.yaml"};
+  if (job.request.page) names.push_back("report.html");
+  for (int f = 0; f < 2; ++f) {
+    for (const std::string& name : io::NamesOfClipFile(job.clip[f].file, report::kFigure[f])) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
 }
 
 namespace {
@@ -139,11 +151,8 @@ void CheckCharacters(const Job& job) {
 }
 
 std::string CharacterScene(const Job& job, const solver::RetargetResult& result,
-                           const std::string& scene) {
-  std::vector<std::string> notes;
-  std::string bytes = ShowCharacters(job, result.solved, scene, &notes);
-  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
-  return bytes;
+                           const std::string& scene, std::vector<std::string>* notes) {
+  return ShowCharacters(job, result.solved, scene, notes);
 }
 
 std::string SceneBytes(const solver::Scene& scene, const std::array<Clip, 2>& clips) {

@@ -1,4 +1,4 @@
-// What the command line asks for, read: settings, clips on one rate, the template.
+// What a request asks for, read: clips on one rate, the template.
 #pragma once
 
 #include <array>
@@ -6,38 +6,38 @@
 #include <vector>
 
 #include "io/load_clip.h"
-#include "model/settings.h"
-#include "solver/retarget.h"
-#include "tools/api/options.h"
+#include "tools/api/retarget.h"
 
 namespace retarget::api {
 
-struct FrameRange {
-  int first, last;  // half-open
-};
-
-// Configuration file, then --set, then --threads. Throws InputError.
-Settings EffectiveSettings(const RetargetOptions& options);
-
 struct Job {
+  Request request;
+  std::string template_text;
   std::array<io::LoadedClip, 2> clip;
   solver::RetargetInput input;
   FrameRange frames;
 };
 
-// The files that a run reads, none of which it may overwrite.
-std::vector<std::string> InputPaths(const RetargetOptions& options);
+Job LoadJob(const Request& request);  // throws InputError
 
-Job LoadJob(const RetargetOptions& options);  // throws InputError
-// What was recognised in the clips, to stderr.
-void TellNotes(const Job& job);
+// The names of the files that will be made of it (Result::files).
+std::vector<std::string> OutputNames(const Job& job);
+// The files that a request reads, none of which it may overwrite.
+std::vector<std::string> InputPaths(const Request& request);
+
+// What was recognised in each clip: a line each, and notes. The start of Result::notes.
+std::vector<std::string> RecognitionNotes(const Job& job);
+
+// The rest of Run.
+Result RunJob(const Job& job, const Progress& progress);
 
 // Throws InputError where CharacterScene will: nobody wants to wait for a solve to hear it.
 void CheckCharacters(const Job& job);
 
-// The scene of the solved motion with the glTF characters of the clips in place of their figures.
+// The scene of the solved motion with the glTF characters of the clips in place of their figures;
+// what had to be left out of them is added to `notes`.
 std::string CharacterScene(const Job& job, const solver::RetargetResult& result,
-                           const std::string& scene);
+                           const std::string& scene, std::vector<std::string>* notes);
 
 // A scene file of two motions of the scene's bodies.
 std::string SceneBytes(const solver::Scene& scene, const std::array<Clip, 2>& clips);

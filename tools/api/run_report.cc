@@ -16,7 +16,7 @@ int64_t PeakBytes() {
   return static_cast<int64_t>(usage.ru_maxrss) * 1024;
 }
 
-report::Json InputsJson(const RetargetOptions& options, const Job& job) {
+report::Json InputsJson(const Job& job) {
   report::Json inputs;
   for (int f = 0; f < 2; ++f) {
     const io::LoadedClip& clip = job.clip[f];
@@ -38,12 +38,12 @@ report::Json InputsJson(const RetargetOptions& options, const Job& job) {
                             {"motion_profile", clip.motion_facts->map.profile}};
     }
   }
-  inputs["template"] = {{"file", options.template_path},
+  inputs["template"] = {{"file", job.request.template_path},
                         {"name", job.input.posture.name},
-                        {"hash", io::HashOf(io::ReadFile(options.template_path))},
-                        {"at_s", options.template_at}};
+                        {"hash", io::HashOf(job.template_text)},
+                        {"at_s", job.request.template_at}};
   inputs["frames"] = {job.frames.first, job.frames.last};
-  inputs["fps"] = options.fps;
+  inputs["fps"] = job.request.fps;
   return inputs;
 }
 
@@ -139,7 +139,7 @@ report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
                          {"format", 1},
                          {"exit_code", run.exit_code},
                          {"requirements_met", solver::AllMet(run.checks)}};
-  report["inputs"] = InputsJson(run.options, run.job);
+  report["inputs"] = InputsJson(run.job);
   report["frames"] = result.scene.num_frames();
   report["fps"] = result.scene.fps();
   report.update(report::SubjectJson(run.subject, metrics));
@@ -164,10 +164,9 @@ report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
   report["memory"] = {{"peak_bytes", PeakBytes()}};
   report["versions"] = {{"retarget", kVersion},
                         {"kernels", solver::KernelName()},
-                        {"threads", solver::NumThreads(run.settings.solve.threads)}};
-  VisitSettings(run.settings, [&](const std::string& key, const auto& value, auto&&...) {
-    report["configuration"][key] = value;
-  });
+                        {"threads", solver::NumThreads(run.job.request.settings.solve.threads)}};
+  VisitSettings(run.job.request.settings, [&](const std::string& key, const auto& value,
+                                              auto&&...) { report["configuration"][key] = value; });
   return report;
 }
 

@@ -18,8 +18,6 @@ struct WrittenRig {
 };
 
 struct RunFacts {
-  const RetargetOptions& options;
-  const Settings& settings;
   const Job& job;
   const solver::RetargetResult& result;
   const solver::MeasureSubject& subject;

@@ -1,6 +1,8 @@
 #pragma once
 
 namespace retarget::api {
-inline constexpr const char* kVersion = RETARGET_VERSION;
-inline constexpr const char* kGenerator = "retarget " RETARGET_VERSION;
+
+extern const char* const kVersion;    // "0.1.0"
+extern const char* const kGenerator;  // "retarget 0.1.0", in what is written
+
 }  // namespace retarget::api

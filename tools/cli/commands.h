@@ -10,7 +10,7 @@
 
 #include "io/load_clip.h"
 #include "model/body/template_posture.h"
-#include "tools/api/options.h"
+#include "tools/api/retarget.h"
 
 namespace retarget::cli {
 
@@ -23,10 +23,25 @@ enum ExitCode {
   kInterrupted = 130
 };
 
-int RunRetarget(const api::RetargetOptions& options);
+struct RetargetOptions {
+  std::array<io::ClipOptions, 2> clip;
+  std::string template_path, config_path, out = "out", frames;
+  std::vector<std::string> set;
+  std::string show = "figures";  // of scene.glb: "figures" or "characters"
+  double fps = 30, template_at = 0;
+  int threads = -1;                // -1: as configured
+  std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines
+  bool json = false, force = false;
+  bool quiet = false;  // says nothing of the result
+};
+// As a request to the library: settings from the configuration file, then --set, then --threads.
+// Throws InputError.
+Request RequestOf(const RetargetOptions& options);
+
+int RunRetarget(const RetargetOptions& options);
 
 // Runs the forward simulation alone and writes baseline.glb and source.glb.
-int RunSimulate(const api::RetargetOptions& options);
+int RunSimulate(const RetargetOptions& options);
 
 int RunVerify(const std::string& folder, bool json);
 int RunCompare(const std::vector<std::string>& folders, bool json);
@@ -84,6 +99,9 @@ int RunStudio(const StudioOptions& options);
 
 // Of a run's folder, or of a template's file.
 int RunRender(const std::string& path, const std::string& out, bool force);
+
+// To stderr, a line each, from the `from`-th on.
+void PrintNotes(const std::vector<std::string>& notes, size_t from);
 
 // Ctrl-C from here on: finish the iteration, write the best so far.
 void CatchInterrupts();

@@ -22,7 +22,7 @@ constexpr int kPicture = 260;  // pixels
 // A folder with template.yaml and two clips, called a and b, of any format.
 struct HoldFolder {
   std::string name, folder;
-  api::RetargetOptions run;
+  RetargetOptions run;
 };
 
 bool IsHold(const fs::path& folder) { return fs::exists(folder / "template.yaml"); }

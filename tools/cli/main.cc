@@ -9,6 +9,7 @@
 #include "io/recognition/recognise.h"
 #include "io/settings_file.h"
 #include "tools/api/version.h"
+#include "tools/cli/command_spec.h"
 #include "tools/cli/commands.h"
 #include "tools/posing/words.h"
 #include "tools/studio/library.h"
@@ -69,7 +70,7 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
 }
 
 struct CommandLine {
-  api::RetargetOptions retarget;
+  RetargetOptions retarget;
   FromClipsOptions from_clips;
   PoseCommandOptions pose;
   GalleryOptions gallery;
@@ -88,6 +89,19 @@ struct CommandLine {
     AddTemplate(app);
     AddPose(app);
     AddStudio(app);
+    AddCompletion(app);
+  }
+
+  void AddCompletion(CLI::App* app) {
+    CLI::App* completion = app->add_subcommand(
+        "completion", "a completion script for a shell, or the manual page, on stdout");
+    completion->add_option("kind", file, "bash, zsh, fish or man")
+        ->required()
+        ->check(CLI::IsMember(kCompletionKinds));
+    completion->callback([this, app] {
+      fmt::print("{}", FormatCompletion(SpecOf(*app), file));
+      code = kDone;
+    });
   }
 
   void AddRetarget(CLI::App* app) {
@@ -103,7 +117,7 @@ struct CommandLine {
 
   // The options that say which clips are to be tangled how.
   void AddScene(CLI::App* app) {
-    api::RetargetOptions& o = retarget;
+    RetargetOptions& o = retarget;
     app->add_option(
         "--clip-a", o.clip[0].path,
         "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");

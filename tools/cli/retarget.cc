@@ -2,21 +2,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 
 #include "io/files.h"
 #include "io/settings_file.h"
-#include "model/rig/write_back.h"
 #include "tools/api/job.h"
-#include "tools/api/run_report.h"
-#include "tools/api/version.h"
 #include "tools/cli/commands.h"
 #include "tools/report/metrics_table.h"
-#include "tools/report/page.h"
-#include "tools/report/series.h"
 
 namespace retarget::cli {
 namespace {
@@ -56,32 +49,16 @@ solver::Progress ProgressLines(bool quiet) {
   };
 }
 
-api::WrittenRig WriteRig(const api::Job& job, const solver::RetargetResult& result, int f,
-                         const solver::MotionView& scene) {
-  const io::LoadedClip& clip = job.clip[f];
-  const double start = clip.options.start + job.frames.first / result.scene.fps();
-  const solver::Placement& placement = result.placement[f];
-  const RigMotion motion = WriteBack(
-      clip.file.motion, *clip.binding, start,
-      [&](const Pose& pose) { return solver::Placed(pose, placement); }, result.scene.source[f],
-      result.solved[f]);
-  api::WrittenRig out;
-  out.files =
-      io::FormatClipFile(clip.file, motion, report::kFigure[f], clip.binding->stature_ratio());
-  for (int n = 0; n < job.input.body[f].num_nodes(); ++n) {
-    const int joint = clip.binding->JointAtNode(n);
-    if (joint >= 0) out.joints.push_back({n, joint});
+// "i:j"; empty: all. Whether they fit the clips is seen later.
+std::optional<FrameRange> ParseFrames(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  FrameRange frames;
+  int read = 0;
+  const bool parsed = std::sscanf(text.c_str(), "%d:%d%n", &frames.first, &frames.last, &read) == 2;
+  if (!parsed || read != static_cast<int>(text.size())) {
+    throw InputError(fmt::format("--frames {}: expected i:j with 0 <= i < j", text));
   }
-  out.error_m =
-      report::WriteBackError(io::ReadBack(clip.file, out.files), clip.file.motion.rig,
-                             clip.facts.metres_per_unit, clip.facts.up, out.joints, scene, f);
-  return out;
-}
-
-int ExitCodeOf(solver::SolveStatus status, bool all_met) {
-  if (status == solver::SolveStatus::kInterrupted) return kInterrupted;
-  if (status != solver::SolveStatus::kConverged) return kLimit;
-  return all_met ? kDone : kMissed;
+  return frames;
 }
 
 }  // namespace
@@ -90,98 +67,62 @@ void CatchInterrupts() {
   std::signal(SIGINT, [](int) { interrupted = 1; });
 }
 
-namespace {
-
-std::vector<std::string> OutputNames(const api::Job& job) {
-  std::vector<std::string> names = {"scene.glb",   "source.glb",  "baseline.glb",
-                                    "report.json", "report.html", "config.yaml"};
-  for (int f = 0; f < 2; ++f) {
-    for (const std::string& name : io::NamesOfClipFile(job.clip[f].file, report::kFigure[f])) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
-  }
-  return names;
+Request RequestOf(const RetargetOptions& options) {
+  Request request;
+  request.clip = options.clip;
+  request.template_path = options.template_path;
+  if (!options.config_path.empty()) request.settings = io::ReadSettings(options.config_path);
+  for (const std::string& assignment : options.set) io::SetByName(&request.settings, assignment);
+  if (options.threads >= 0) request.settings.solve.threads = options.threads;
+  solver::ParseStages(request.settings.solve.stages);
+  request.fps = options.fps;
+  request.frames = ParseFrames(options.frames);
+  request.template_at = options.template_at;
+  request.show = options.show == "characters" ? Show::kCharacters : Show::kFigures;
+  return request;
 }
 
-}  // namespace
+int RunRetarget(const RetargetOptions& options) {
+  // What is asked for, and whether it may be written.
+  const api::Job job = api::LoadJob(RequestOf(options));
+  io::OutputSet output(options.out, api::OutputNames(job), api::InputPaths(job.request),
+                       options.force);
+  const std::vector<std::string> recognised = api::RecognitionNotes(job);
+  if (!options.quiet) PrintNotes(recognised, 0);
 
-int RunRetarget(const api::RetargetOptions& options) {
-  // Read, map onto the body, resample.
-  const Settings settings = api::EffectiveSettings(options);
-  const api::Job job = api::LoadJob(options);
-  io::OutputSet output(options.out, OutputNames(job), api::InputPaths(options), options.force);
-  if (!options.quiet) api::TellNotes(job);
-  if (options.show == "characters") api::CheckCharacters(job);
-
-  // Fit the template, find tangles and contacts, place, start, solve.
   CatchInterrupts();
-  const solver::RetargetResult result =
-      solver::Retarget(job.input, settings,
-                       options.progress == "json" ? ProgressJson() : ProgressLines(options.quiet));
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  const Result result =
+      api::RunJob(job, options.progress == "json" ? ProgressJson() : ProgressLines(options.quiet));
+  PrintNotes(result.notes, recognised.size());
 
-  // Measure what is written, as it would be read back.
-  const solver::MeasureSubject subject = solver::SubjectOf(result.scene);
-  report::MeasuredScene source(api::SceneBytes(result.scene, result.scene.source), "source.glb",
-                               subject.body);
-  report::MeasuredScene baseline(api::SceneBytes(result.scene, result.simulation.motion),
-                                 "baseline.glb", subject.body);
-  const std::string figures = api::SceneBytes(result.scene, result.solved);
-  report::MeasuredScene scene(
-      options.show == "characters" ? api::CharacterScene(job, result, figures) : figures,
-      "scene.glb", subject.body);
-  for (report::MeasuredScene* motion : {&source, &baseline, &scene})
-    motion->Measure(subject, source);
-  const solver::Metrics& metrics = scene.metrics();
-  std::vector<solver::RequirementCheck> checks =
-      solver::CheckRequirements(subject, metrics, settings.requirements);
-  std::array<api::WrittenRig, 2> rig;
-  for (int f = 0; f < 2; ++f) {
-    rig[f] = WriteRig(job, result, f, scene.view());
-    checks.push_back({std::string("write-back ") + report::kFigure[f], rig[f].error_m,
-                      report::kWriteBackLimit, "m", rig[f].error_m <= report::kWriteBackLimit, ""});
-  }
-  const bool all_met = solver::AllMet(checks);
-  std::vector<solver::Conflict> conflicts;
-  if (!all_met) {
-    conflicts = solver::FindConflicts(solver::Problem(result.scene, settings),
-                                      result.solve.unknowns, subject, metrics, checks);
-  }
-  const int exit_code = ExitCodeOf(result.solve.status, all_met);
-
-  // Report and write.
-  const report::Json report =
-      api::RunReport({options, settings, job, result, subject, checks, conflicts, exit_code, rig},
-                     source.metrics(), baseline.metrics(), metrics);
-  output.Add("scene.glb", scene.bytes());
-  output.Add("source.glb", source.bytes());
-  output.Add("baseline.glb", baseline.bytes());
-  for (const api::WrittenRig& written : rig) {
-    for (const io::NamedBytes& file : written.files) output.Add(file.name, file.bytes);
-  }
-  output.Add("report.json", report.dump(1) + "\n");
-  const report::Json series =
-      report::SeriesJson(subject, source.series(), &baseline.series(), scene.series());
-  output.Add("report.html",
-             report::FormatReportPage({report, series, source.bytes(), baseline.bytes(), figures}));
-  output.Add("config.yaml", io::FormatSettings(settings));
+  for (const io::NamedBytes& file : result.files) output.Add(file.name, file.bytes);
   output.Commit();
 
+  const int exit_code = ExitCodeOf(result.status);
   if (options.quiet) return exit_code;
   if (options.json) {
-    fmt::print("{}\n", report.dump(1));
+    fmt::print("{}", result.File("report.json"));
     return exit_code;
   }
   fmt::print("{}",
-             report::MetricsTable(subject, source.metrics(), &baseline.metrics(), metrics, checks));
-  for (const solver::Conflict& conflict : conflicts) fmt::print("  {}\n", conflict.sentence);
+             report::MetricsTable(solver::SubjectOf(result.run.scene), result.source_metrics,
+                                  &result.baseline_metrics, result.metrics, result.requirements));
+  for (const solver::Conflict& conflict : result.diagnoses) {
+    fmt::print("  {}\n", conflict.sentence);
+  }
+  const solver::SolveResult& solve = result.run.solve;
+  const int frames = result.run.scene.num_frames();
   fmt::print(
       "{} frames in {:.2f} s ({:.0f} frames/s, {} iterations), start {:.2f} s; written to {}\n",
-      result.scene.num_frames(), result.solve.seconds,
-      result.scene.num_frames() / result.solve.seconds, result.solve.iterations,
-      result.start_seconds, options.out);
-  fmt::print("{}\n", all_met ? "every requirement is met" : "a requirement is MISSED, see above");
+      frames, solve.seconds, frames / solve.seconds, solve.iterations, result.run.start_seconds,
+      options.out);
+  fmt::print("{}\n", solver::AllMet(result.requirements) ? "every requirement is met"
+                                                         : "a requirement is MISSED, see above");
   return exit_code;
+}
+
+void PrintNotes(const std::vector<std::string>& notes, size_t from) {
+  for (size_t k = from; k < notes.size(); ++k) fmt::print(stderr, "{}\n", notes[k]);
 }
 
 }  // namespace retarget::cli

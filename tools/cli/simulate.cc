@@ -9,12 +9,12 @@
 
 namespace retarget::cli {
 
-int RunSimulate(const api::RetargetOptions& options) {
-  const Settings settings = api::EffectiveSettings(options);
-  const api::Job job = api::LoadJob(options);
-  io::OutputSet output(options.out, {"source.glb", "baseline.glb"}, api::InputPaths(options),
+int RunSimulate(const RetargetOptions& options) {
+  const api::Job job = api::LoadJob(RequestOf(options));
+  const Settings& settings = job.request.settings;
+  io::OutputSet output(options.out, {"source.glb", "baseline.glb"}, api::InputPaths(job.request),
                        options.force);
-  api::TellNotes(job);
+  PrintNotes(api::RecognitionNotes(job), 0);
   const solver::RetargetResult prepared = solver::Prepare(job.input, settings);
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "warning: {}\n", warning);
   const solver::Scene& scene = prepared.scene;

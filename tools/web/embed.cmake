@@ -1,4 +1,4 @@
-# Builds the pages of tools/web and makes them part of retarget_tools.
+# Builds the pages of tools/web and makes them part of retarget_face.
 set(WEB_DIR ${PROJECT_SOURCE_DIR}/tools/web)
 set(EMBEDDED_FILES ${WEB_DIR}/src/shared/theme.css ${WEB_DIR}/src/report/report.css)
 set(EMBEDDED_DEFINITIONS RETARGET_THEME_CSS="${WEB_DIR}/src/shared/theme.css"
@@ -45,6 +45,6 @@ else()
 endif()
 
 set_source_files_properties(${PROJECT_SOURCE_DIR}/tools/report/embedded_page.cc
-                            TARGET_DIRECTORY retarget_tools PROPERTIES
+                            TARGET_DIRECTORY retarget_face PROPERTIES
                             OBJECT_DEPENDS "${EMBEDDED_FILES}"
                             COMPILE_DEFINITIONS "${EMBEDDED_DEFINITIONS}")

@@ -1,0 +1,26 @@
+// Which clip is meant, and what its file does not say.
+#pragma once
+
+#include <string>
+
+namespace retarget::io {
+
+struct ClipOptions {
+  std::string path;            // as ParseClipPath takes it
+  std::string option;          // "a" or "b": which options messages name
+  double start = 0;            // s into the clip
+  double stature = 0;          // m, 0: the clip's own
+  std::string units;           // as given, empty: as the file says, or guess
+  std::string up;              // "y", "z", empty: as the file says, or guess
+  std::string map;             // path of a joint map, empty: guess
+  bool any_animation = false;  // of several, none of them selected, the first
+  int skip_frames = 0;         // dropped from the beginning
+  double amc_fps = 120;        // of Acclaim motions, which do not say
+  std::string character;       // path of a character that takes over the motion, empty: none
+  std::string character_map;   // joint map of the character
+  // The file itself where it is in memory already; `path` is then what messages call it, with the
+  // selection that some formats need. Of Acclaim the motion, with its skeleton apart.
+  std::string bytes = {}, skeleton_bytes = {};
+};
+
+}  // namespace retarget::io
