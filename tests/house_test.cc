@@ -21,7 +21,6 @@ struct SourceFile {
   bool is_header() const { return path.ends_with(".h"); }
 };
 
-// All but the examples, which are programs of others that use what is installed.
 const std::vector<SourceFile>& SourceFiles() {
   static const std::vector<SourceFile> files = [] {
     const std::regex include(R"((?:^|\n)#include ([<"])([^>"]+)[>"])");
@@ -29,8 +28,7 @@ const std::vector<SourceFile>& SourceFiles() {
     for (const char* layer : {"model", "solver", "io", "tools"}) {
       fs::recursive_directory_iterator entries(ProjectPath(layer));
       for (auto entry = begin(entries); entry != end(entries); ++entry) {
-        const std::string name = entry->path().filename();
-        if (name == "node_modules" || name == "examples") entry.disable_recursion_pending();
+        if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
         const std::string extension = entry->path().extension();
         if (extension != ".h" && extension != ".cc") continue;
         const fs::path path = fs::relative(entry->path(), RETARGET_SOURCE_DIR);
@@ -82,6 +80,7 @@ const std::map<std::string, Names>& KnownFolders() {
       {"tools/posing", {"tools/report", "tools/api"}},
       {"tools/studio", {"tools/report", "tools/api", "tools/posing"}},
       {"tools/cli", {"tools/report", "tools/api", "tools/posing", "tools/studio"}},
+      {"tools/examples/embed", {}},
       {"tools/bench", {"tools/report", "tools/api", "tools/posing", "tools/studio"}}};
   return folders;
 }
@@ -179,6 +178,7 @@ const std::vector<Library>& Libraries() {
       {"png.h", {"io/render"}, {}, 1},
       {"stb/", {"io/render"}, {}, 1},
       {"CLI/", {"tools/cli"}, {}, 2},
+      {"retarget/retarget.h", {"tools/examples"}, {}, kAnyNumber},  // as users include it
       {"httplib.h", {"tools/studio", "tools/bench"}, {}, 2},
       {"benchmark/", {"tools/bench"}, {}, kAnyNumber},
       {"nlohmann/",
