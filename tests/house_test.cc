@@ -165,7 +165,8 @@ const std::vector<Library>& Libraries() {
       {"tiny_gltf.h", {"io/gltf", "io/scene"}, {"io/gltf/load.h"}, 2},
       {"glm/", {"io/scene"}, {}, 1},
       {"yaml-cpp/", {"io/text"}, {}, 1},
-      {"zlib.h", {"io/render"}, {}, 1},
+      {"png.h", {"io/render"}, {}, 1},
+      {"stb/", {"io/render"}, {}, 1},
       {"CLI/", {"tools/cli"}, {}, 2},
       {"retarget/retarget.h", {"tools/examples"}, {}, kAnyNumber},  // as users include it
       {"httplib.h", {"tools/studio", "tools/bench"}, {}, 2},
