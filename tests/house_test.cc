@@ -50,8 +50,8 @@ std::string LayerOf(const std::string& path) { return path.substr(0, path.find('
 // The folders of its own layer that a folder may know.
 const std::map<std::string, Names>& KnownFolders() {
   static const std::map<std::string, Names> folders = {
-      {"model", {}},
       {"model/geometry", {}},
+      {"model", {"model/geometry"}},
       {"model/body", {"model", "model/geometry"}},
       {"model/rig", {"model", "model/geometry", "model/body"}},
 

@@ -79,7 +79,7 @@ Json ChecksJson(const std::vector<solver::RequirementCheck>& checks,
 
 ReadRequirement RequirementFromJson(const Json& json) {
   ReadRequirement out;
-  if (!json.is_object()) return out;
+  json.at("met");  // throws where this is no requirement
   out.value = NumberAt(json, "/value");
   out.limit = NumberAt(json, "/limit");
   out.met = json.value("met", true);
@@ -104,7 +104,10 @@ ReadRequirement RequirementFromJson(const Json& json) {
 
 std::vector<ReadRequirement> RequirementsOf(const Json& report) {
   std::vector<ReadRequirement> out;
-  for (const Json& check : At(report, "/requirements")) out.push_back(RequirementFromJson(check));
+  if (!report.contains("requirements")) return out;
+  for (const Json& check : report.at("requirements").get_ref<const Json::array_t&>()) {
+    out.push_back(RequirementFromJson(check));
+  }
   return out;
 }
 

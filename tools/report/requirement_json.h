@@ -29,6 +29,7 @@ struct ReadRequirement {
 
   bool Is(solver::RequirementKind k) const { return kind == k; }
 };
+// Both throw nlohmann::json::exception where that is no list of requirements.
 // Older reports have no `kind`: there it is taken from the name, and the frame from `where`.
 ReadRequirement RequirementFromJson(const Json& check);
 std::vector<ReadRequirement> RequirementsOf(const Json& report);

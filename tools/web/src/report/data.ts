@@ -76,16 +76,15 @@ export function readScene(variant: Variant): ArrayBuffer | null {
   return bytes.buffer;
 }
 
-// The limit of the first requirement of that kind (and of that tag or hold), and one where the
-// report has none.
+// The limit of the first requirement of that kind, and of that tag or hold where it is given.
 export function limitOf(
   report: Report,
   kind: RequirementKind,
   otherwise: number,
   item?: number,
 ): number {
-  const is = (r: Requirement) => r.kind === kind && (item === undefined || r.item === item);
-  return report.requirements.find(is)?.limit ?? otherwise;
+  const isAsked = (r: Requirement) => r.kind === kind && (item === undefined || r.item === item);
+  return report.requirements.find(isAsked)?.limit ?? otherwise;
 }
 
 // Largest of several series, frame by frame.
