@@ -8,6 +8,7 @@
 
 #include "io/files.h"
 #include "io/scene/scene_glb.h"
+#include "io/text/read_file.h"
 
 namespace retarget::report {
 namespace {

@@ -28,7 +28,7 @@ std::string HoldName(const Json& report) {
   if (!name.empty()) return name;
   const fs::path path = TextAt(report, "/inputs/template/file");
   const bool plain = path.stem() == "template" && path.has_parent_path();
-  return Words(plain ? path.parent_path().filename().string() : path.stem().string());
+  return Humanize(plain ? path.parent_path().filename().string() : path.stem().string());
 }
 
 std::vector<std::string> Asked(const Json& report) {
@@ -46,7 +46,7 @@ std::vector<std::string> Asked(const Json& report) {
                   a, b, HoldName(report), Count(frames, "frame", "frames"), seconds, kept)};
   for (size_t k = 0; k < tangles; ++k) {
     const auto node = [&](const char* figure, int end) {
-      return Words(TextAt(report, fmt::format("/tangles/{}/{}/{}", k, figure, end)));
+      return Humanize(TextAt(report, fmt::format("/tangles/{}/{}/{}", k, figure, end)));
     };
     asked.push_back(fmt::format("Tag {}: a from {} to {}, tangled with b from {} to {}.", k + 1,
                                 node("a", 0), node("a", 1), node("b", 0), node("b", 1)));
@@ -110,7 +110,7 @@ std::string Missed(const Json& check) {
   } else {
     line = fmt::format("{}: {:.4g} {}, {:.4g} allowed", name, value, shown, limit);
   }
-  std::string where = Words(check.value("where", ""));
+  std::string where = Humanize(check.value("where", ""));
   const int frame = FrameNamedIn(where);
   if (starts("tangle") && frame >= 0) where = fmt::format("frame {}", frame);  // the tag is named
   return line + (where.empty() ? "" : " (" + where + ")") + ".";

@@ -4,7 +4,7 @@ import { element } from "../shared/dom";
 import { figureNames, type FigureName } from "../shared/figure_scene";
 import type { Actions } from "./actions";
 import { JointSection } from "./joint_section";
-import { optionNames, type Op, type OptionName } from "./protocol";
+import { optionNames, type GestureOp, type OptionName, type Vec } from "./protocol";
 import type { Sender } from "./sender";
 import type { Shown, Store } from "./store";
 import { VectorFields } from "./vector_fields";
@@ -75,7 +75,12 @@ export class FiguresPanel {
     this.leader = select(
       "whose motion leads the figure in a solve",
       leaders,
-      (leader) => void actions.do({ op: "set_root_leader", figure: figure(), leader }),
+      (leader) =>
+        void actions.do({
+          op: "set_root_leader",
+          figure: figure(),
+          leader: leader === "partner" ? "partner" : "world",
+        }),
     );
     const ways: [string, string][] = [
       ["shown", "shown"],
@@ -170,10 +175,13 @@ export class FiguresPanel {
     );
   }
 
-  private rootOp(axis: number, value: number, which: "position" | "rotation_vector"): Op {
+  private rootOp(axis: number, value: number, which: "position" | "rotation_vector"): GestureOp {
     const { figure } = this.store.ui;
     const { position, rotation_vector } = this.store.state.figures[figure].root;
-    const root = { position: [...position], rotation_vector: [...rotation_vector] };
+    const root: { position: Vec; rotation_vector: Vec } = {
+      position: [...position],
+      rotation_vector: [...rotation_vector],
+    };
     root[which][axis] = value;
     return { op: "set_root", figure, ...root };
   }

@@ -2,6 +2,9 @@
 // [x, y, z, w]; figures, nodes and joints by name.
 
 import type { FigureName } from "../shared/figure_scene";
+import type { OptionName } from "./operations";
+
+export { optionNames, type GestureOp, type Op, type OptionName } from "./operations";
 
 export type Vec = [number, number, number];
 export type Quat = [number, number, number, number];
@@ -60,6 +63,8 @@ export interface Hold {
 export interface Tangle {
   a: Path;
   b: Path;
+  from?: number; // s
+  to?: number;
 }
 export interface Tag extends Tangle {
   gli: number;
@@ -103,16 +108,6 @@ export interface Camera {
   target: Vec;
   fov_deg: number;
 }
-export const optionNames = [
-  "holds",
-  "limits",
-  "penetration",
-  "floor",
-  "tangles",
-  "feet",
-  "root",
-] as const;
-export type OptionName = (typeof optionNames)[number];
 
 export interface State {
   revision: number;
@@ -166,9 +161,6 @@ export interface Reply {
   result?: Result | null;
   warning?: string;
 }
-// One operation of tools/pose_operations.h: {op: "drag", figure: "a", ...}.
-export type Op = { op: string } & Record<string, unknown>;
-
 export interface TemplateInfo {
   id: string;
   name: string;
