@@ -10,7 +10,7 @@ packages=(g++ cmake ninja-build pkg-config ccache libceres-dev libeigen3-dev lib
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)
 if [[ ${1:-} == --tests ]]; then
-  packages+=(libgtest-dev)
+  packages+=(libgtest-dev clang-format)
   [[ -x ${RETARGET_CHROMIUM:-/usr/bin/chromium} ]] || packages+=(chromium)
 fi
 

@@ -366,7 +366,6 @@ TEST(RecogniseTest, JsonSurvivesNamesThatAreNoText) {
 // --- Conventions: the published names, as a list that this code does not read, are the oracle ---
 
 TEST(RecogniseTest, EveryPublishedConvention) {
-  SKIP_WITHOUT_SHARED_DATA();
   const Names profiles = {{"mixamo/rpm/humanik/lafan1", "mixamo"},
                           {"cmu_cgspeed", "cmu"},
                           {"classic_bvh/xsens", "classic"},
@@ -389,7 +388,7 @@ TEST(RecogniseTest, EveryPublishedConvention) {
                           {"biped", "Bip01 "},
                           {"reallusion_cc", "CC_Base_"},
                           {"rigify", "DEF-"}};
-  const auto list = nlohmann::json::parse(ReadWholeFile(SharedPath("rigs/joint_names.json")));
+  const auto list = nlohmann::json::parse(ReadWholeFile(TestDataPath("rigs/joint_names.json")));
   EXPECT_EQ(list.size(), profiles.size());
   for (const auto& [convention, entry] : list.items()) {
     for (const bool prefixed : {false, true}) {

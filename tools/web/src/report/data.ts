@@ -1,5 +1,8 @@
 // What the page holds: report.json, the series by frame, and the scenes (docs/report.md).
 
+import type { PerFigure } from "../shared/names";
+import type { Requirement } from "../shared/requirement";
+
 export const variants = ["source", "baseline", "result"] as const;
 export type Variant = (typeof variants)[number];
 export const variantTitle: Record<Variant, string> = {
@@ -12,8 +15,6 @@ export const variantMeaning: Record<Variant, string> = {
   baseline: "forward simulation",
   result: "solved",
 };
-export type FigureName = "a" | "b";
-type PerFigure<T> = { a: T; b: T };
 
 export interface Series {
   tangles: number[][]; // [tags][frames], s GLI, turns
@@ -33,15 +34,6 @@ export interface AllSeries {
   source: Series;
   baseline: Series | null;
   result: Series;
-}
-
-export interface Requirement {
-  name: string;
-  value: number;
-  limit: number;
-  unit: string;
-  met: boolean;
-  where: string;
 }
 
 // The part of report.json that the page computes with; the tables are in the page already.
@@ -86,7 +78,7 @@ export function limitOf(report: Report, name: string, otherwise: number): number
 
 // Largest of several series, frame by frame.
 export function largest(rows: number[][], frames: number): number[] {
-  return Array.from({ length: frames }, (_, t) => rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0));
+  return Array.from({ length: frames }, (_, t) =>
+    rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0),
+  );
 }
-
-export const words = (name: string) => name.replace(/_/g, " ");

@@ -1,7 +1,7 @@
 // The operations of tools/posing/operation_table.h. Made from them by
 // `cmake --build build/release --target operations_ts`: not to be edited.
 
-import type { FigureName } from "../shared/figure_scene";
+import type { FigureName } from "../shared/names";
 import type { Camera, HoldEnd, Photo, Quat, Ray, Tangle, Vec } from "./protocol";
 
 export const optionNames = [
