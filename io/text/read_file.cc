@@ -41,7 +41,9 @@ std::optional<std::string> TryReadFile(const std::string& path) {
 }
 
 std::string ReadFile(const std::string& path, const std::string& expected, size_t most_bytes) {
-  if (IsFolder(path)) throw InputError(path + ": is a folder, expected " + expected);
+  if (IsFolder(path)) {
+    throw InputError(path + ": found no readable file (it is a folder), expected " + expected);
+  }
   const bool limited = most_bytes != std::string::npos;
   std::optional<std::string> bytes = ReadUpTo(path, limited ? most_bytes + 1 : most_bytes);
   if (!bytes) throw InputError(path + ": found no readable file, expected " + expected);

@@ -12,7 +12,7 @@ std::optional<std::string> TryReadFile(const std::string& path);
 
 // The same; `expected` says what it should be ("a BVH file"). Throws InputError
 //   path: found no readable file, expected a BVH file
-//   path: is a folder, expected a BVH file
+//   path: found no readable file (it is a folder), expected a BVH file
 //   path: found more than 4 MB, expected a BVH file
 std::string ReadFile(const std::string& path, const std::string& expected = "a file",
                      size_t most_bytes = std::string::npos);

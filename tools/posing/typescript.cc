@@ -1,11 +1,14 @@
 #include "tools/posing/typescript.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tools/posing/operation_table.h"
 
 namespace retarget::posing {
 namespace {
+
+constexpr size_t kLineLength = 100;
 
 // A list as prettier writes it that does not fit on one line.
 std::string OptionNames() {
@@ -25,6 +28,14 @@ std::string TypeName(const std::string& name) {
   return out;
 }
 
+// A union of types, on one line where it fits.
+std::string UnionOf(const char* name, const std::vector<std::string>& types) {
+  const std::string line = fmt::format("  {};", fmt::join(types, " | "));
+  const bool fits = line.size() <= kLineLength;
+  return fmt::format("export type {} =\n{}\n", name,
+                     fits ? line : fmt::format("  | {};", fmt::join(types, "\n  | ")));
+}
+
 std::string TypeOf(const std::string& name, const std::vector<OperationField>& fields) {
   std::string out = fmt::format("export interface {}Op {{\n  op: \"{}\";\n", TypeName(name), name);
   for (const OperationField& field : fields) {
@@ -36,12 +47,12 @@ std::string TypeOf(const std::string& name, const std::vector<OperationField>& f
 }  // namespace
 
 std::string OperationsTypeScript() {
-  std::string types, all, with_gesture;
+  std::string types;
+  std::vector<std::string> all, with_gesture;
   const auto add = [&](const std::string& name, const std::vector<OperationField>& fields) {
     types += TypeOf(name, fields);
-    const std::string member = fmt::format("\n  | {}Op", TypeName(name));
-    all += member;
-    if (!fields.empty() && fields.back().key == "gesture") with_gesture += member;
+    all.push_back(TypeName(name) + "Op");
+    if (!fields.empty() && fields.back().key == "gesture") with_gesture.push_back(all.back());
   };
   for (const OperationRow& row : OperationTable()) {
     if (!row.name.empty()) add(row.name, row.fields);
@@ -51,9 +62,9 @@ std::string OperationsTypeScript() {
          "// `cmake --build build/release --target operations_ts`: not to be edited.\n\n"
          "import type { FigureName } from \"../shared/names\";\n"
          "import type { Camera, HoldEnd, Photo, Quat, Ray, Tangle, Vec } from \"./protocol\";\n\n" +
-         OptionNames() + "\n" + types + "\nexport type Op =" + all + ";\n" +
-         "\n// Steps of one gesture are one step of the history.\nexport type GestureOp =" +
-         with_gesture + ";\n";
+         OptionNames() + "\n" + types + "\n" + UnionOf("Op", all) +
+         "\n// Steps of one gesture are one step of the history.\n" +
+         UnionOf("GestureOp", with_gesture);
 }
 
 }  // namespace retarget::posing

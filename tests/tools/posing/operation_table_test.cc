@@ -31,6 +31,15 @@ std::string Written(const PoseStep& step) {
   return PoseJson(std::get<Operation>(step), State().posture).dump();
 }
 
+// What an option makes of "?": an operation, or a refusal.
+std::string Outcome(const std::string& option) {
+  try {
+    return Written(ParsePoseStep(option, "?", State()));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 // An operation as a user says it and as the page does.
 struct Spelling {
   const char *option, *value, *json, *label;
@@ -132,13 +141,13 @@ TEST(OperationTable, TakesTheNamesOfBothPlaces) {
             Written(ParsePoseStep("move-figure", "a=1,2,3", State())));
   for (const PoseWord& word : PoseWords()) {
     if (word.alias.empty()) continue;
-    EXPECT_THROW(ParsePoseStep(word.alias, "?", State()), InputError) << word.alias;
+    EXPECT_EQ(Outcome(word.alias), Outcome(word.name)) << word.alias;
   }
 }
 
 TEST(OperationTable, FieldsOfOtherOperationsAreRefused) {
   const std::pair<const char*, const char*> cases[] = {
-      {R"({"op":"settle","figure":"a"})", "figure: unknown field, did you mean"},
+      {R"({"op":"settle","figure":"a"})", "figure: unknown field"},
       {R"({"op":"undo","figure":"a"})", "figure: unknown field"},
       {R"({"op":""})", "op: unknown name \"\""},
       {R"({"op":"add_hld"})", "op: unknown name \"add_hld\", did you mean \"add_hold\"?"},

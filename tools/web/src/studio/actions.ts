@@ -62,9 +62,11 @@ export class Actions {
     void this.do({ op: pinned ? "unpin" : "pin", figure: pick.figure, node });
   }
   clearPins(): void {
-    const ops = this.store.state.pins.map(
-      ({ figure, node }): Op => ({ op: "unpin", figure, node }),
-    );
+    const ops = this.store.state.pins.map(({ figure, node }): Op => ({
+      op: "unpin",
+      figure,
+      node,
+    }));
     if (ops.length > 0) void this.do(...ops);
   }
 

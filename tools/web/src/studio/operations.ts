@@ -201,10 +201,4 @@ export type Op =
 
 // Steps of one gesture are one step of the history.
 export type GestureOp =
-  | DragOp
-  | DragRayOp
-  | MoveFigureOp
-  | TurnFigureOp
-  | RotateJointOp
-  | SetJointOp
-  | SetRootOp;
+  DragOp | DragRayOp | MoveFigureOp | TurnFigureOp | RotateJointOp | SetJointOp | SetRootOp;
