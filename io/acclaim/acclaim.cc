@@ -189,8 +189,8 @@ AcclaimFile ParseAcclaim(std::string_view asf_text, const std::string& asf_name,
 }
 
 AcclaimFile ReadAcclaim(const std::string& asf_path, const std::string& amc_path, double fps) {
-  return ParseAcclaim(ReadFilledFile(asf_path, "an ASF file"), asf_path, ReadFilledFile(amc_path, "an AMC file"), amc_path,
-                      fps);
+  return ParseAcclaim(ReadFilledFile(asf_path, "an ASF file"), asf_path,
+                      ReadFilledFile(amc_path, "an AMC file"), amc_path, fps);
 }
 
 }  // namespace retarget::io

@@ -72,8 +72,7 @@ void Assemble(const std::vector<BoneBlock>& blocks, const LineReader& lines, Ske
   }
   for (size_t b = 0; b < blocks.size(); ++b) {
     if (joint_of_block[b] < 0) {
-      lines.Fail("bone " + QuotedWord(blocks[b].name) + " apart from the root",
-                 "it in :hierarchy");
+      lines.Fail("bone " + QuotedWord(blocks[b].name) + " apart from the root", "it in :hierarchy");
     }
     skeleton->joint_of_name[LowerCase(blocks[b].name)] = joint_of_block[b];
   }

@@ -92,7 +92,8 @@ class HierarchyReader {
       ReadEndSite(joint.joint);
     } else if (word == "}") {
       if (!joint.has_offset) {
-        cursor_.Fail("the end of joint " + QuotedWord(out_.rig.joints[joint.joint].name), "its OFFSET");
+        cursor_.Fail("the end of joint " + QuotedWord(out_.rig.joints[joint.joint].name),
+                     "its OFFSET");
       }
       open_.pop_back();
     } else {
