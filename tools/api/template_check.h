@@ -18,8 +18,6 @@ struct TemplateCheck {
   std::vector<std::string> warnings;  // weak tags and the like
   bool met() const { return solver::AllMet(checks); }
 };
-inline constexpr double kWeakGli = 0.6;     // turns: a tag under it is weak
-inline constexpr double kEasilyLost = 0.1;  // robustness radius of a tag (rad, m)
 TemplateCheck CheckTemplate(const TemplatePosture& posture);
 // What is to be said of weak tags.
 std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags);
