@@ -3,11 +3,13 @@
 
 #include <string>
 
+#include "io/recognition/option_words.h"
+
 namespace retarget::io {
 
 struct ClipOptions {
   std::string path;            // as ParseClipPath takes it
-  std::string option;          // "a" or "b": which options messages name
+  std::string option;          // "a" or "b": added to the words, empty: there is one clip
   double start = 0;            // s into the clip
   double stature = 0;          // m, 0: the clip's own
   std::string units;           // as given, empty: as the file says, or guess
@@ -21,6 +23,11 @@ struct ClipOptions {
   // The file itself where it is in memory already; `path` is then what messages call it, with the
   // selection that some formats need. Of Acclaim the motion, with its skeleton apart.
   std::string bytes = {}, skeleton_bytes = {};
+  OptionWords words = {};  // what messages call these options
+  // The option as messages name it.
+  std::string Named(const std::string& word) const {
+    return option.empty() ? word : word + "-" + option;
+  }
 };
 
 }  // namespace retarget::io

@@ -37,7 +37,24 @@ fs::path TemporaryName(const fs::path& path) {
   return path.parent_path() / fmt::format(".{}.{}.part", path.filename().string(), getpid());
 }
 
+std::string TextOf(WriteRefusal::Kind kind, const std::string& path, const std::string& file) {
+  switch (kind) {
+    case WriteRefusal::Kind::kFileExists:
+      return path + ": is there already";
+    case WriteRefusal::Kind::kForeignFiles:
+      return fmt::format("{}: {} is there and no earlier run wrote it", path, file);
+    case WriteRefusal::Kind::kInput:
+      return fmt::format("{}: would overwrite the input {}", path, file);
+    case WriteRefusal::Kind::kNoFolder:
+      break;
+  }
+  return path + ": cannot be created";
+}
+
 }  // namespace
+
+WriteRefusal::WriteRefusal(Kind kind, const std::string& path, const std::string& file)
+    : InputError(TextOf(kind, path, file)), kind_(kind), path_(path), file_(file) {}
 
 std::string ReadFile(const std::string& path) {
   std::error_code error;
@@ -71,19 +88,15 @@ OutputSet::OutputSet(const std::string& folder, const std::vector<std::string>& 
     const fs::path path = fs::path(folder) / name;
     for (const std::string& input : inputs) {
       if (SameFile(path, input)) {
-        throw InputError(fmt::format(
-            "--out {}: would overwrite the input {}; choose another folder", folder, input));
+        throw WriteRefusal(WriteRefusal::Kind::kInput, folder, input);
       }
     }
     if (fs::exists(path, error) && !ours && !force) {
-      throw InputError(
-          fmt::format("--out {}: {} is there and no earlier run wrote it; choose another folder or "
-                      "give --force",
-                      folder, name));
+      throw WriteRefusal(WriteRefusal::Kind::kForeignFiles, folder, name);
     }
   }
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) throw InputError("--out " + folder + ": cannot be created");
+  if (!fs::is_directory(folder)) throw WriteRefusal(WriteRefusal::Kind::kNoFolder, folder, "");
 }
 
 void OutputSet::Add(const std::string& name, std::string bytes) {
@@ -110,7 +123,7 @@ void OutputSet::Commit() {
 void WriteFile(const std::string& path, const std::string& bytes, bool force) {
   std::error_code error;
   if (fs::exists(path, error) && !force) {
-    throw InputError(path + ": is there already; give --force to overwrite it");
+    throw WriteRefusal(WriteRefusal::Kind::kFileExists, path, "");
   }
   const fs::path temporary = TemporaryName(path);
   WriteTemporary(temporary, bytes);

@@ -32,7 +32,7 @@ LoadedClip ReadClip(const ClipOptions& options) {
 
 // What the options, the map file and the format say, in this order.
 RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& file) {
-  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map};
+  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map, options.words};
   if (!options.map.empty()) {
     MapFile map = ReadMap(options.map, file.motion.rig);
     if (map.metres_per_unit) recognise.metres_per_unit = map.metres_per_unit;
@@ -42,8 +42,8 @@ RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& 
   if (!options.units.empty()) {
     recognise.metres_per_unit = ParseUnits(options.units);
     if (!recognise.metres_per_unit) {
-      throw InputError(fmt::format("--units-{} {}: expected cm, m, mm, in, cmu or metres per unit",
-                                   options.option, options.units));
+      throw InputError(fmt::format("{} {}: expected cm, m, mm, in, cmu or metres per unit",
+                                   options.Named(options.words.units), options.units));
     }
   }
   if (!options.up.empty()) recognise.up = options.up[0];
@@ -165,8 +165,9 @@ LoadedClip RecogniseClip(const ClipOptions& options) {
   clip.facts = Recognise(motion, RecogniseOptionsOf(options, clip.file), options.path);
   clip.facts.notes.insert(clip.facts.notes.begin(), clip.file.notes.begin(), clip.file.notes.end());
   if (options.skip_frames >= motion.num_frames()) {
-    throw InputError(fmt::format("--skip-frames-{} {}: {} has only {} frames", options.option,
-                                 options.skip_frames, options.path, motion.num_frames()));
+    throw InputError(fmt::format("{} {}: {} has only {} frames",
+                                 options.Named(options.words.skip_frames), options.skip_frames,
+                                 options.path, motion.num_frames()));
   }
   motion.frames.erase(motion.frames.begin(), motion.frames.begin() + options.skip_frames);
   return clip;
@@ -179,13 +180,14 @@ LoadedClip LoadClip(const ClipOptions& options) {
   if (!clip.file.has_motion) {
     throw InputError(fmt::format(
         "{}: is a character without animation, expected a motion; to put another clip's motion on "
-        "it: --character-{} {}",
-        options.path, options.option, options.path));
+        "it: {} {}",
+        options.path, options.Named(options.words.character), options.path));
   }
   Bind(&clip);
   if (options.start > clip.duration() + 1e-9) {
-    throw InputError(fmt::format("--start-{} {}: {} is only {:.3f} s long", options.option,
-                                 options.start, options.path, clip.duration()));
+    throw InputError(fmt::format("{} {}: {} is only {:.3f} s long",
+                                 options.Named(options.words.start), options.start, options.path,
+                                 clip.duration()));
   }
   if (!options.character.empty()) {
     clip.options.stature = options.stature;

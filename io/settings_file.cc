@@ -111,11 +111,11 @@ Settings ParseSettings(const std::string& text, const std::string& name) {
   return settings;
 }
 
-void SetByName(Settings* settings, const std::string& assignment) {
+void SetByName(Settings* settings, const std::string& assignment, const std::string& name) {
   const size_t equals = assignment.find('=');
   YamlValue value;
   value.kind = YamlValue::Kind::kScalar;
-  value.place = "--set";
+  value.place = name;
   value.text = assignment;
   if (equals == std::string::npos) RefuseExpecting(value, "key=value");
   value.path = Trimmed(assignment.substr(0, equals));

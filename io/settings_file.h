@@ -17,8 +17,10 @@ Settings ReadSettings(const std::string& path);
 // The same of a text; `name` stands for the file in messages.
 Settings ParseSettings(const std::string& text, const std::string& name);
 
-// Applies one "weights.tangle=20", as --set takes it. Leaves `settings` alone if it throws.
-void SetByName(Settings* settings, const std::string& assignment);
+// Applies one "weights.tangle=20"; `name` is what messages call it. Leaves `settings` alone if it
+// throws.
+void SetByName(Settings* settings, const std::string& assignment,
+               const std::string& name = "setting");
 
 // Every key, each with its default, unit and meaning as a comment. Reads back to equal settings.
 std::string FormatSettings(const Settings& settings);

@@ -15,8 +15,6 @@
 namespace retarget::io {
 namespace {
 
-constexpr double kMaxTime = 1e6;  // s
-
 // -- What the figures hold, stand on and follow --------------------------------------------------
 
 // The posture so far, with the figures worked out in the world.
@@ -133,16 +131,17 @@ Path ReadPath(const YamlValue& value, const Body& body) {
 }
 
 TangleRequest ReadTangle(const YamlValue& value, const std::array<Body, 2>& body) {
-  CheckKeys(value, {"a", "b", "from", "to"});
+  // Keys of a time window, which older templates may have: said by name.
+  for (const char* window : {"from", "to"}) {
+    if (const YamlValue* key = value.Find(window)) {
+      Refuse(*key,
+             "a tangle holds throughout: windows in time are not supported yet, leave it out");
+    }
+  }
+  CheckKeys(value, {"a", "b"});
   TangleRequest tangle;
   tangle.a = ReadPath(Require(value, "a"), body[0]);
   tangle.b = ReadPath(Require(value, "b"), body[1]);
-  if (const YamlValue* from = value.Find("from")) {
-    tangle.from_s = ReadNumber(*from, 0, kMaxTime, "s");
-  }
-  if (const YamlValue* to = value.Find("to")) {
-    tangle.to_s = ReadNumber(*to, tangle.from_s.value_or(0), kMaxTime, "s");
-  }
   return tangle;
 }
 

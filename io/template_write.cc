@@ -158,12 +158,9 @@ std::string TanglesText(const TemplatePosture& posture) {
   if (posture.tangles.empty()) return "";
   std::string out = "tangles:\n";
   for (const TangleRequest& tangle : posture.tangles) {
-    out +=
-        fmt::format("  - {{a: {}, b: {}", NodeList(posture.body[0], {tangle.a.from, tangle.a.to}),
-                    NodeList(posture.body[1], {tangle.b.from, tangle.b.to}));
-    if (tangle.from_s) out += fmt::format(", from: {}", *tangle.from_s);
-    if (tangle.to_s) out += fmt::format(", to: {}", *tangle.to_s);
-    out += "}\n";
+    out += fmt::format("  - {{a: {}, b: {}}}\n",
+                       NodeList(posture.body[0], {tangle.a.from, tangle.a.to}),
+                       NodeList(posture.body[1], {tangle.b.from, tangle.b.to}));
   }
   return out;
 }

@@ -73,6 +73,8 @@ struct Requirements {
   double foot_drift_m = 0.01;
   double floor_m = 0.01;
   double hold_m = 0.02;
+  double segment_length_percent = 0.5;  // largest change of a segment as it is written
+  double write_back_m = 0.005;          // of the written rig from the scene
 };
 
 struct SolveSettings {
@@ -199,6 +201,10 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
         "of a planted node from where its contact began", 0, 1);
   visit("requirements.floor_m", r.floor_m, "m", "deepest point below the floor", 0, 1);
   visit("requirements.hold_m", r.hold_m, "m", "largest distance of held points", 0, 1);
+  visit("requirements.segment_length_percent", r.segment_length_percent, "%",
+        "largest change of a segment's length", 0, 100);
+  visit("requirements.write_back_m", r.write_back_m, "m",
+        "largest distance of the written rig's joints to the scene's", 0, 1);
   auto& v = s.solve;
   visit("solve.backend", v.backend, "", "linear algebra of the clip's solve", 0, 0);
   visit("solve.start", v.start, "", "initial guess; best: solve from both, keep the better", 0, 0);

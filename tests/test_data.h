@@ -1,4 +1,5 @@
-// Where tests find files that do not belong to the repository, and how they skip without them.
+// Where tests find their files: those of the repository, and those that stand beside it, without
+// which tests skip.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,8 +11,8 @@
 
 namespace retarget {
 
-// A file or folder of the shared reference data that stands beside a developer's checkout
-// (RETARGET_SHARED_DIR, set by CMake; `../shared` by default).
+// A file or folder of the reference data of others, which stand beside a developer's checkout for
+// their licences (RETARGET_SHARED_DIR, set by CMake; `../shared` by default).
 inline std::string SharedPath(const std::string& relative) {
   return std::string(RETARGET_SHARED_DIR) + "/" + relative;
 }
@@ -19,6 +20,11 @@ inline std::string SharedPath(const std::string& relative) {
 // A file of the repository itself.
 inline std::string ProjectPath(const std::string& relative) {
   return std::string(RETARGET_SOURCE_DIR) + "/" + relative;
+}
+
+// A file of the tests' own data, which every checkout has: a test that reads them never skips.
+inline std::string TestDataPath(const std::string& relative) {
+  return ProjectPath("tests/data/" + relative);
 }
 
 inline std::string ReadWholeFile(const std::string& path) {
@@ -30,8 +36,8 @@ inline std::string ReadWholeFile(const std::string& path) {
 
 }  // namespace retarget
 
-// Skips (CTest counts it) where the shared reference data are not there.
-#define SKIP_WITHOUT_SHARED_DATA()                                          \
-  if (!std::filesystem::exists(retarget::SharedPath("golden/README.md"))) { \
-    GTEST_SKIP() << "no shared reference data at " << RETARGET_SHARED_DIR;  \
+// Skips (CTest counts it) where the reference data of others are not there.
+#define SKIP_WITHOUT_SHARED_DATA()                                         \
+  if (!std::filesystem::exists(retarget::SharedPath("data/README.md"))) {  \
+    GTEST_SKIP() << "no shared reference data at " << RETARGET_SHARED_DIR; \
   }

@@ -1,12 +1,11 @@
 // The actors of the example clips: their rigs, the postures they take, and the joint rotations that
-// a posture takes; and how both are written as BVH. Lengths in m, BVH in cm.
+// a posture takes. Lengths in m.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
@@ -239,58 +238,37 @@ inline Rotations PoseActor(const Actor& actor, const Posture& posture) {
   return world;
 }
 
-// --- BVH ---
+// An actor at an instant: where his root is in his own frame (m), and how all joints are turned.
+struct Figure {
+  Vec3 root = Vec3::Zero();
+  Rotations world;
+};
 
-// Rotations are written Y, Z, X: for a figure this order meets its gimbal lock only where an arm
-// points straight up or down or the trunk lies on its side, so the curves have no jumps.
-inline void WriteAngles(const Quat& q, std::FILE* out) {
-  const Mat3 m = q.toRotationMatrix();
-  const double y = std::atan2(-m(2, 0), m(0, 0));
-  const double z = std::asin(std::clamp(m(1, 0), -1.0, 1.0));
-  const double x = std::atan2(-m(1, 2), m(1, 1));
-  std::fprintf(out, " %.5f %.5f %.5f", y / kDegree, z / kDegree, x / kDegree);
+inline Figure FigureOf(const Actor& actor, const Posture& posture) {
+  return {posture.root, PoseActor(actor, posture)};
 }
 
-inline void WriteVector(const Vec3& metres, std::FILE* out) {
-  std::fprintf(out, "%.5f %.5f %.5f", 100 * metres.x(), 100 * metres.y(), 100 * metres.z());
-}
+// The same as a file tells it: every joint in its parent, in the order of the rig; the root in the
+// actor's own frame.
+struct LocalFigure {
+  Vec3 root;
+  std::vector<Quat> turns;
+};
 
-inline void WriteJoint(const Actor& actor, int j, int depth, std::FILE* out) {
-  const std::string tab(depth, '\t');
-  const Joint& joint = actor.joints[j];
-  std::fprintf(out, "%s%s %s\n%s{\n%s\tOFFSET ", tab.c_str(), j == 0 ? "ROOT" : "JOINT",
-               joint.name.c_str(), tab.c_str(), tab.c_str());
-  WriteVector(joint.offset, out);
-  std::fprintf(out, "\n%s\tCHANNELS %sYrotation Zrotation Xrotation\n", tab.c_str(),
-               j == 0 ? "6 Xposition Yposition Zposition " : "3 ");
-  bool leaf = true;
-  for (size_t child = 0; child < actor.joints.size(); ++child) {
-    if (actor.joints[child].parent != j) continue;
-    WriteJoint(actor, static_cast<int>(child), depth + 1, out);
-    leaf = false;
-  }
-  if (leaf) {
-    std::fprintf(out, "%s\tEnd Site\n%s\t{\n%s\t\tOFFSET ", tab.c_str(), tab.c_str(), tab.c_str());
-    WriteVector(joint.end_site, out);
-    std::fprintf(out, "\n%s\t}\n", tab.c_str());
-  }
-  std::fprintf(out, "%s}\n", tab.c_str());
-}
-
-// `stage`: where on the capture stage the actor's own frame lies.
-inline void WriteFrame(const Actor& actor, const Posture& posture, const Place& stage,
-                       std::FILE* out) {
-  const Quat turn = YawRotation(stage.yaw_deg * kDegree);
-  Rotations world = PoseActor(actor, posture);
-  WriteVector(turn * posture.root + Vec3(stage.x, 0, stage.z), out);
-  WriteAngles(turn * world["Hips"], out);
+// A joint that the figure does not name goes with its parent.
+inline LocalFigure LocalOf(const Actor& actor, const Figure& figure) {
+  LocalFigure local{figure.root, {figure.world.at("Hips")}};
+  Rotations world = figure.world;
   for (size_t j = 1; j < actor.joints.size(); ++j) {  // parents first, so they are in `world`
-    const Joint& joint = actor.joints[j];
-    const Quat parent = world.at(actor.joints[joint.parent].name);
-    const Quat own = world.try_emplace(joint.name, parent).first->second;
-    WriteAngles(parent.conjugate() * own, out);
+    const Quat parent = world.at(actor.joints[actor.joints[j].parent].name);
+    const Quat own = world.try_emplace(actor.joints[j].name, parent).first->second;
+    local.turns.push_back(parent.conjugate() * own);
   }
-  std::fprintf(out, "\n");
+  return local;
+}
+
+inline LocalFigure LocalOf(const Actor& actor, const Posture& posture) {
+  return LocalOf(actor, FigureOf(actor, posture));
 }
 
 }  // namespace retarget

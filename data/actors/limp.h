@@ -2,7 +2,6 @@
 // laid over a block. Lengths in m, rotation vectors in degrees.
 #pragma once
 
-#include <cstdio>
 #include <map>
 #include <string>
 
@@ -16,17 +15,13 @@ struct LimpPosture {
   std::map<std::string, Vec3> turns;  // by the rig's joint, child in parent; others are zero
 };
 
-// As that of a posture in actor.h; WriteClip (write_clip.h) finds either.
-inline void WriteFrame(const Actor& actor, const LimpPosture& posture, const Place& stage,
-                       std::FILE* out) {
-  const Quat turn = YawRotation(stage.yaw_deg * kDegree);
-  WriteVector(turn * posture.root + Vec3(stage.x, 0, stage.z), out);
-  WriteAngles(turn * ExpDegrees(posture.hips_deg), out);
+inline LocalFigure LocalOf(const Actor& actor, const LimpPosture& posture) {
+  LocalFigure local{posture.root, {ExpDegrees(posture.hips_deg)}};
   for (size_t j = 1; j < actor.joints.size(); ++j) {
     const auto it = posture.turns.find(actor.joints[j].name);
-    WriteAngles(it == posture.turns.end() ? Quat::Identity() : ExpDegrees(it->second), out);
+    local.turns.push_back(it == posture.turns.end() ? Quat::Identity() : ExpDegrees(it->second));
   }
-  std::fprintf(out, "\n");
+  return local;
 }
 
 }  // namespace retarget

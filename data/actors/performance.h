@@ -1,22 +1,16 @@
 // What the generators of the shipped holds share: a figure that stands or has its legs in the air,
-// where two people stand who hold each other, and how a performance becomes a clip.
+// where two people stand who hold each other.
 #pragma once
 
-#include <cstdio>
-#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "data/actors/actor.h"
 #include "data/actors/gait.h"
 #include "data/actors/restless.h"
 
 namespace retarget {
-
-// An actor at an instant: where his root is in his own frame (m), and how all joints are turned.
-struct Figure {
-  Vec3 root = Vec3::Zero();
-  Rotations world;
-};
 
 // Feet and pelvis of somebody on his feet; trunk, head and arms are up to the performance. The
 // pelvis hangs `ahead` (m) of the ankles.
@@ -27,10 +21,6 @@ inline Posture OnFeet(const Actor& actor, const Gait& gait, double t, double roo
   p.root.y() = root_height;
   for (const FootSide foot : {kLeft, kRight}) p.feet[foot] = gait.Foot(foot, t);
   return p;
-}
-
-inline Figure FigureOf(const Actor& actor, const Posture& posture) {
-  return {posture.root, PoseActor(actor, posture)};
 }
 
 // A leg that bears nothing, in the frame of the pelvis (right leg: x mirrored, so that out is +x).
@@ -76,50 +66,6 @@ inline Place PlaceInPair(const Place& pair, const Place& beside) {
 inline Gait GaitInPair(const Stance& stance, const Place& beside, std::vector<Step> steps) {
   for (Step& step : steps) step.to = PlaceInPair(step.to, beside);
   return Gait(stance, std::move(steps));
-}
-
-using Performance = std::function<Figure(const Actor& actor, double t)>;
-
-inline void WriteFigure(const Actor& actor, Figure figure, const Place& stage, std::FILE* out) {
-  const Quat turn = YawRotation(stage.yaw_deg * kDegree);
-  Rotations& world = figure.world;
-  WriteVector(turn * figure.root + Vec3(stage.x, 0, stage.z), out);
-  WriteAngles(turn * world["Hips"], out);
-  for (size_t j = 1; j < actor.joints.size(); ++j) {  // parents first, so they are in `world`
-    const Joint& joint = actor.joints[j];
-    const Quat parent = world.at(actor.joints[joint.parent].name);
-    const Quat own = world.try_emplace(joint.name, parent).first->second;
-    WriteAngles(parent.conjugate() * own, out);
-  }
-  std::fprintf(out, "\n");
-}
-
-// `stage`: where on the capture stage the actor's own frame lies.
-inline bool WriteClip(const std::string& path, const Build& build, const Place& stage,
-                      double seconds, const Performance& perform) {
-  constexpr double kFps = 30;
-  std::FILE* out = std::fopen(path.c_str(), "w");
-  if (out == nullptr) return false;
-  const Actor actor = MakeActor(build);
-  const int frames = static_cast<int>(seconds * kFps) + 1;
-  std::fprintf(out, "HIERARCHY\n");
-  WriteJoint(actor, 0, 0, out);
-  std::fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.6f\n", frames, 1 / kFps);
-  for (int k = 0; k < frames; ++k) {
-    WriteFigure(actor, perform(actor, k / kFps), stage, out);
-  }
-  return std::fclose(out) == 0;
-}
-
-// main() of a generator: one argument, the folder. `write` writes both clips into it.
-inline int RunGenerator(int argc, char** argv, const std::function<bool(std::string)>& write) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: make_clips OUT_DIR\n");
-    return 2;
-  }
-  if (write(argv[1])) return 0;
-  std::fprintf(stderr, "%s: cannot write the clips there\n", argv[1]);
-  return 1;
 }
 
 }  // namespace retarget

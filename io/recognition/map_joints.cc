@@ -28,9 +28,4 @@ std::vector<std::string> VirtualJoints(const Figure& figure) {
   return names;
 }
 
-std::string MapByHand(const std::string& file) {
-  return "`retarget map " + file +
-         " --yaml > a.map.yaml`, edit it, give it with --map-a a.map.yaml";
-}
-
 }  // namespace retarget::io

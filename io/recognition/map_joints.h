@@ -34,7 +34,4 @@ inline constexpr SidePart kSideParts[] = {{"clavicle", &JointMap::Side::clavicle
                                           {"ankle", &JointMap::Side::ankle, false},
                                           {"toe", &JointMap::Side::toe, false}};
 
-// How a user maps the figure of a file by hand.
-std::string MapByHand(const std::string& file);
-
 }  // namespace retarget::io

@@ -32,10 +32,18 @@ std::string Quoted(const std::vector<std::string>& names) {
   return out;
 }
 
+struct Refusal {
+  const std::string& file;
+  const OptionWords& words;
+};
+
 // Every refusal ends with the way out.
-[[noreturn]] void RefuseFigure(const std::string& file, const std::string& why) {
+[[noreturn]] void RefuseFigure(const Refusal& refusal, const std::string& why) {
+  std::string by_hand = refusal.words.map_by_hand;
+  const size_t at = by_hand.find("{}");
+  if (at != std::string::npos) by_hand.replace(at, 2, refusal.file);
   throw InputError(
-      fmt::format("{}: no human figure: {}; to map it by hand: {}", file, why, MapByHand(file)));
+      fmt::format("{}: no human figure: {}; to map it by hand: {}", refusal.file, why, by_hand));
 }
 
 std::string MissingJoints(const Rig& rig, const NameMatch& match) {
@@ -54,7 +62,7 @@ std::string MissingJoints(const Rig& rig, const NameMatch& match) {
 
 // The limb that two readings of the names give to different joints.
 [[noreturn]] void RefuseTie(const Rig& rig, const JointMap& a, const JointMap& b,
-                            const std::string& file) {
+                            const Refusal& refusal) {
   using Side = JointMap::Side;
   constexpr std::pair<const char*, int Side::*> kLimbs[] = {{"shoulder", &Side::shoulder},
                                                             {"elbow", &Side::elbow},
@@ -65,19 +73,20 @@ std::string MissingJoints(const Rig& rig, const NameMatch& match) {
     for (const auto& [part, joint] : kLimbs) {
       const int first = a.*side.*joint, second = b.*side.*joint;
       if (first == second) continue;
-      RefuseFigure(file, fmt::format("{}_{} may be '{}' (as '{}' has it) or '{}' (as '{}' has it)",
-                                     name, part, Printable(rig.joints[first].name), a.profile,
-                                     Printable(rig.joints[second].name), b.profile));
+      RefuseFigure(refusal,
+                   fmt::format("{}_{} may be '{}' (as '{}' has it) or '{}' (as '{}' has it)", name,
+                               part, Printable(rig.joints[first].name), a.profile,
+                               Printable(rig.joints[second].name), b.profile));
     }
   }
-  RefuseFigure(file, "its names can be read in two ways");
+  RefuseFigure(refusal, "its names can be read in two ways");
 }
 
-JointMap FindJoints(const RigMotion& motion, const std::string& file, RigFacts* facts) {
+JointMap FindJoints(const RigMotion& motion, const Refusal& refusal, RigFacts* facts) {
   const Rig& rig = motion.rig;
   const auto [match, rival] = MatchBestProfile(rig);
   if (match.complete()) {
-    if (rival) RefuseTie(rig, match.map, rival->map, file);
+    if (rival) RefuseTie(rig, match.map, rival->map, refusal);
     facts->confidence = match.share;
     for (const std::string& bone : match.ignored) {
       facts->notes.push_back("'" + Printable(bone) + "' hangs where no human has it: left out");
@@ -97,13 +106,13 @@ JointMap FindJoints(const RigMotion& motion, const std::string& file, RigFacts* 
   }
   constexpr int kFewest = 9;  // joints: a root and four limbs of two
   if (rig.num_joints() < kFewest) {
-    RefuseFigure(file, fmt::format("it has {} joint{}, a human at least {}", rig.num_joints(),
-                                   rig.num_joints() == 1 ? "" : "s", kFewest));
+    RefuseFigure(refusal, fmt::format("it has {} joint{}, a human at least {}", rig.num_joints(),
+                                      rig.num_joints() == 1 ? "" : "s", kFewest));
   }
-  if (!shape.refusal.empty()) RefuseFigure(file, shape.refusal);
-  if (!match.missing.empty()) RefuseFigure(file, MissingJoints(rig, match));
-  RefuseFigure(file, fmt::format("its names follow '{}', but {}", match.map.profile,
-                                 Printable(match.misplaced.front())));
+  if (!shape.refusal.empty()) RefuseFigure(refusal, shape.refusal);
+  if (!match.missing.empty()) RefuseFigure(refusal, MissingJoints(rig, match));
+  RefuseFigure(refusal, fmt::format("its names follow '{}', but {}", match.map.profile,
+                                    Printable(match.misplaced.front())));
 }
 
 }  // namespace
@@ -114,13 +123,13 @@ RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
     throw InputError(file_name + ": no frames of any joint, expected a motion");
   }
   RigFacts facts;
-  facts.map = options.map ? *options.map : FindJoints(motion, file_name, &facts);
+  facts.map = options.map ? *options.map : FindJoints(motion, {file_name, options.words}, &facts);
   const Figure figure(motion, facts.map);
   FindUnit(FigureHeight(figure), options, file_name, &facts);
   FindUp(figure, options, file_name, &facts);
   CheckFigure(figure, &facts);
   facts.t_pose_frames = TPoseFrames(motion, figure.points, UpAxis(facts));
-  NoteTPose(motion, figure.points, &facts);
+  NoteTPose(motion, figure.points, options.words, &facts);
   return facts;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "io/recognition/option_words.h"
 #include "model/rig/rig.h"
 
 namespace retarget::io {
@@ -13,6 +14,7 @@ struct RecogniseOptions {
   std::optional<double> metres_per_unit;
   std::optional<char> up;                      // 'y' or 'z'
   std::optional<JointMap> map = std::nullopt;  // of a map file: nothing is guessed
+  OptionWords words = {};                      // what messages call these
 };
 
 // Recognises the human of a motion. Throws InputError, one line that begins with `file_name`,

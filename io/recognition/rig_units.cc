@@ -30,7 +30,7 @@ std::string UnitName(double metres) {
 }
 
 // The listed unit that makes `height` (file units) the most usual stature.
-double GuessUnit(double height, const std::string& file) {
+double GuessUnit(double height, const OptionWords& words, const std::string& file) {
   const Unit* best = nullptr;
   double least = 0;
   for (const Unit& unit : kUnits) {
@@ -45,8 +45,8 @@ double GuessUnit(double height, const std::string& file) {
   if (best == nullptr) {
     throw InputError(
         fmt::format("{}: the figure is {:.4g} units tall, no human height in m, cm, "
-                    "mm, in or cmu; give its unit with --units",
-                    file, height));
+                    "mm, in or cmu; give its unit with {}",
+                    file, height, words.units));
   }
   return best->metres;
 }
@@ -74,7 +74,7 @@ void FindUnit(double height, const RecogniseOptions& options, const std::string&
       throw InputError(file + ": units must be a positive number of metres");
     }
   } else {
-    facts->metres_per_unit = GuessUnit(height, file);
+    facts->metres_per_unit = GuessUnit(height, options.words, file);
   }
   facts->unit_name = UnitName(facts->metres_per_unit);
   facts->stature = height * facts->metres_per_unit;
@@ -82,7 +82,7 @@ void FindUnit(double height, const RecogniseOptions& options, const std::string&
     facts->notes.push_back(fmt::format("a stature of {:.2f} m is unusual", facts->stature) +
                            (options.metres_per_unit ? ""
                                                     : ": if the unit is not " + facts->unit_name +
-                                                          ", give it with --units"));
+                                                          ", give it with " + options.words.units));
   }
 }
 
@@ -107,9 +107,9 @@ void FindUp(const Figure& figure, const RecogniseOptions& options, const std::st
   }
   facts->up = options.up.value_or(facts->up);
   if (along(mean, facts->up) < kStands * mean.norm()) {
-    facts->notes.push_back(fmt::format(
-        "the figure seldom stands along +{}: if that is not up, give the axis with --up",
-        facts->up));
+    facts->notes.push_back(
+        fmt::format("the figure seldom stands along +{}: if that is not up, give the axis with {}",
+                    facts->up, options.words.up));
   }
 }
 

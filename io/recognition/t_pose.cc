@@ -76,7 +76,8 @@ std::vector<int> TPoseFrames(const RigMotion& motion, const RigPoints& points, c
   return frames;
 }
 
-void NoteTPose(const RigMotion& motion, const RigPoints& points, RigFacts* facts) {
+void NoteTPose(const RigMotion& motion, const RigPoints& points, const OptionWords& words,
+               RigFacts* facts) {
   constexpr int kMostHasty = 5, kMostSwing = 4;
   constexpr double kHasty = 500, kSwing = 0.05;  // degrees per second; share of the leap's speed
   if (facts->t_pose_frames.empty() || motion.num_frames() == 1) return;
@@ -96,9 +97,9 @@ void NoteTPose(const RigMotion& motion, const RigPoints& points, RigFacts* facts
       }
     }
   }
-  facts->notes.push_back(fmt::format(
-      "the clip begins in a T-pose, the motion at frame {0}: --skip-frames {0} leaves it out",
-      start));
+  facts->notes.push_back(
+      fmt::format("the clip begins in a T-pose, the motion at frame {0}: {1} {0} leaves it out",
+                  start, words.skip_frames));
 }
 
 }  // namespace retarget::io

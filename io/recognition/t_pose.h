@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "io/recognition/option_words.h"
 #include "model/rig/points.h"
 #include "model/rig/rig.h"
 
@@ -16,6 +17,7 @@ std::vector<int> TPoseFrames(const RigMotion& motion, const RigPoints& points, c
 // Says where the motion begins: after the T-pose and the few hasty frames that a resampling tool
 // made to lead away from it, those included in which its filter overshoots and swings back.
 // `facts` has the frames of the T-pose.
-void NoteTPose(const RigMotion& motion, const RigPoints& points, RigFacts* facts);
+void NoteTPose(const RigMotion& motion, const RigPoints& points, const OptionWords& words,
+               RigFacts* facts);
 
 }  // namespace retarget::io

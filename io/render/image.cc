@@ -1,14 +1,12 @@
 #include "io/render/image.h"
 
-#include <zlib.h>
+#include <png.h>
+#include <stb/stb_easy_font.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
-
-#include "io/render/pixel_font.h"
+#include <stdexcept>
 
 namespace retarget::io {
 namespace {
@@ -23,47 +21,18 @@ void Paste(const Image& part, int left, int top, Image* whole) {
   }
 }
 
-// PNG, second edition (ISO/IEC 15948), 7.1: numbers are big-endian.
-std::string BigEndian(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xFF);
-  return bytes;
-}
+// A rectangle of a glyph in dots, as stb_easy_font makes them: four corners of x, y, z and colour.
+struct Quad {
+  float corner[4][4];
+};
+constexpr int kMostQuadsOfAGlyph = 16;
 
-// Ibid. 5.3: length, type, data, and a checksum of type and data.
-std::string Chunk(const std::string& type, const std::string& data) {
-  const std::string body = type + data;
-  const uLong checksum = crc32(0, reinterpret_cast<const Bytef*>(body.data()), body.size());
-  return BigEndian(static_cast<std::uint32_t>(data.size())) + body +
-         BigEndian(static_cast<std::uint32_t>(checksum));
-}
-
-// Ibid. 9.4: the neighbour (left, above, above left) nearest to their plane.
-int Paeth(int left, int above, int corner) {
-  const int plane = left + above - corner;
-  const int to_left = std::abs(plane - left), to_above = std::abs(plane - above);
-  const int to_corner = std::abs(plane - corner);
-  if (to_left <= to_above && to_left <= to_corner) return left;
-  return to_above <= to_corner ? above : corner;
-}
-
-// The rows as differences from their Paeth prediction, each behind its filter type.
-std::string FilteredRows(const Image& image) {
-  constexpr char kPaethFilter = 4;
-  const int row_bytes = 3 * image.width;
-  std::string filtered;
-  filtered.reserve(static_cast<size_t>(image.height) * (row_bytes + 1));
-  for (int y = 0; y < image.height; ++y) {
-    const unsigned char* row = image.At(0, y);
-    const unsigned char* above = y > 0 ? image.At(0, y - 1) : nullptr;
-    filtered += kPaethFilter;
-    for (int i = 0; i < row_bytes; ++i) {
-      const int prediction =
-          Paeth(i >= 3 ? row[i - 3] : 0, above ? above[i] : 0, i >= 3 && above ? above[i - 3] : 0);
-      filtered += static_cast<char>(row[i] - prediction);
-    }
+// The font knows printable ASCII alone and does not check.
+std::string Printable(std::string text) {
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
   }
-  return filtered;
+  return text;
 }
 
 }  // namespace
@@ -110,41 +79,41 @@ Image TileImages(const std::vector<std::vector<Image>>& rows, int gap) {
 }
 
 void DrawLabel(Image* image, int x, int y, const std::string& text, int scale, const Vec3& colour) {
-  const auto is_ink = [&](int dx, int dy) {
-    const int column = dx / scale % (kGlyphWidth + 1), row = dy / scale;
-    if (column >= kGlyphWidth) return false;
-    return (GlyphOf(text[dx / scale / (kGlyphWidth + 1)])[row] >> (kGlyphWidth - 1 - column) & 1) !=
-           0;
-  };
-  const int width = LabelWidth(text, scale), height = kGlyphHeight * scale;
-  for (int dy = std::max(0, -y); dy < std::min(height, image->height - y); ++dy) {
-    for (int dx = std::max(0, -x); dx < std::min(width, image->width - x); ++dx) {
-      if (!is_ink(dx, dy)) continue;
-      for (int c = 0; c < 3; ++c) image->At(x + dx, y + dy)[c] = ByteOf(colour[c]);
+  std::string printable = Printable(text);
+  std::vector<Quad> quads(kMostQuadsOfAGlyph * printable.size());
+  quads.resize(
+      static_cast<size_t>(stb_easy_font_print(0, 0, printable.data(), nullptr, quads.data(),
+                                              static_cast<int>(quads.size() * sizeof(Quad)))));
+  for (const Quad& quad : quads) {
+    const auto pixel = [&](int corner, int axis) {
+      return scale * static_cast<int>(quad.corner[corner][axis]) + (axis == 0 ? x : y);
+    };
+    for (int py = std::max(0, pixel(0, 1)); py < std::min(image->height, pixel(2, 1)); ++py) {
+      for (int px = std::max(0, pixel(0, 0)); px < std::min(image->width, pixel(2, 0)); ++px) {
+        for (int c = 0; c < 3; ++c) image->At(px, py)[c] = ByteOf(colour[c]);
+      }
     }
   }
 }
 
 int LabelWidth(const std::string& text, int scale) {
   if (text.empty()) return 0;
-  return (static_cast<int>(text.size()) * (kGlyphWidth + 1) - 1) * scale;
+  return (stb_easy_font_width(Printable(text).data()) - 1) * scale;  // no gap behind the last
 }
 
 std::string EncodePng(const Image& image) {
-  const std::string rows = FilteredRows(image);
-  uLongf size = compressBound(rows.size());
-  std::string packed(size, '\0');
-  const int status =
-      compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                reinterpret_cast<const Bytef*>(rows.data()), rows.size(), /*level=*/6);
-  assert(status == Z_OK);  // the only other outcomes are no memory and no room
-  static_cast<void>(status);
-  packed.resize(size);
-  // 8 bits, colour type 2 (RGB), the only compression and filter methods, not interlaced.
-  const std::string header =
-      BigEndian(image.width) + BigEndian(image.height) + std::string("\x08\x02\x00\x00\x00", 5);
-  return std::string("\x89PNG\r\n\x1a\n", 8) + Chunk("IHDR", header) + Chunk("IDAT", packed) +
-         Chunk("IEND", "");
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = PNG_FORMAT_RGB;
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
+  png_alloc_size_t size = bytes.size();
+  const int written = png_image_write_to_memory(&header, bytes.data(), &size, /*convert_to_8bit=*/0,
+                                                image.rgb.data(), /*row_stride=*/0, nullptr);
+  if (written == 0) throw std::runtime_error(std::string("PNG: ") + header.message);
+  bytes.resize(size);
+  return bytes;
 }
 
 }  // namespace retarget::io

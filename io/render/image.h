@@ -29,15 +29,16 @@ Image BlankImage(int width, int height, const Vec3& colour);
 // column is as wide and a row as high as its largest picture; rows may differ in length.
 Image TileImages(const std::vector<std::vector<Image>>& rows, int gap = 8);
 
-// Writes `text` (printable ASCII) with its upper left corner at pixel (x, y), `scale` pixels per
-// dot, 6 x 8 dots per character. What lies outside of the picture is left out.
+// Writes `text` with its upper left corner at pixel (x, y), `scale` pixels per dot; capitals are 7
+// dots high. What is not printable ASCII becomes "?"; what lies outside of the picture is left out.
 void DrawLabel(Image* image, int x, int y, const std::string& text, int scale = 2,
                const Vec3& colour = Vec3(0.15, 0.15, 0.17));
 
 // Width of such a label in pixels.
 int LabelWidth(const std::string& text, int scale = 2);
 
-// The bytes of a PNG file (8 bits, RGB).
+// The bytes of a PNG file (8 bits, sRGB). Throws std::runtime_error where there is no memory for
+// it.
 std::string EncodePng(const Image& image);
 
 }  // namespace retarget::io

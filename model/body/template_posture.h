@@ -39,7 +39,6 @@ enum class RootLeader { kOwnClip, kPartner };
 // A tangle that the user listed herself.
 struct TangleRequest {
   Path a, b;
-  std::optional<double> from_s, to_s;  // when it holds (s); kept, not yet used
 };
 
 // A photograph that the posture was made over, and the view of it.

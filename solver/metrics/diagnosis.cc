@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <map>
 
-#include "solver/metrics/diagnosis_text.h"
+#include "solver/metrics/diagnosis_cause.h"
 
 namespace retarget::solver {
 namespace {
 
 // The part of the objective that works for a requirement.
 bool WorksFor(const RequirementCheck& check, const Scene& scene, const Pull& pull) {
-  if (pull.term != check.term) return false;
+  if (pull.term != TermOf(check.kind)) return false;
   if (check.item >= 0) return pull.item == check.item;
-  if (check.term != "foot_lock") return true;
+  if (check.kind != RequirementKind::kFootDrift) return true;
   const LimbNode& limb = check.limbs[0];
-  const AnchoredContact anchored = ContactOfAnchor(scene, pull.item);
-  return anchored.figure == limb.figure && anchored.contact.node == limb.node;
+  const PlantedFoot foot = FootOfAnchor(scene, pull.item);
+  return foot.figure == limb.figure && foot.contact.node == limb.node;
 }
 
 }  // namespace
@@ -62,6 +62,13 @@ Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
   return out;
 }
 
+std::vector<std::string> Conflict::terms() const {
+  std::vector<std::string> terms;
+  if (!TermOf(check.kind).empty()) terms.push_back(TermOf(check.kind));
+  if (opposition.opposed()) terms.push_back(opposition.shares[0].term);
+  return terms;
+}
+
 std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unknowns,
                                     const MeasureSubject& subject, const Metrics& metrics,
                                     const std::vector<RequirementCheck>& checks) {
@@ -69,22 +76,17 @@ std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unkn
   for (const RequirementCheck& check : checks) {
     if (check.met) continue;
     // The share of deep frames says nothing that the deepest does not.
-    const bool told = check.name == kDeepFrames && !conflicts.empty() &&
-                      conflicts.back().requirement == "penetration";
+    const bool told = check.kind == RequirementKind::kPenetrationOver1cm && !conflicts.empty() &&
+                      conflicts.back().check.kind == RequirementKind::kPenetration;
     if (told) continue;
     Conflict conflict;
-    conflict.requirement = check.name;
-    conflict.frame = check.frame;
-    for (const LimbNode& limb : check.limbs) {
-      conflict.limbs.push_back(LimbName(subject.body, limb));
+    conflict.check = check;
+    conflict.opposition = OppositionTo(problem, unknowns, check);
+    const Opposition& o = conflict.opposition;
+    if (o.item >= 0 && o.shares[0].term == "foot_lock") {
+      conflict.opposing_foot = FootOfAnchor(problem.scene(), o.item);
     }
-    const Opposition opposition = OppositionTo(problem, unknowns, check);
-    if (!check.term.empty()) conflict.terms.push_back(check.term);
-    if (opposition.opposed()) {
-      conflict.terms.push_back(opposition.shares[0].term);
-      conflict.cosine = opposition.shares[0].cosine;
-    }
-    conflict.sentence = ConflictSentence({problem, unknowns, subject, metrics, check, opposition});
+    FindCause({problem, unknowns, subject, metrics}, &conflict);
     conflicts.push_back(conflict);
   }
   return conflicts;

@@ -1,7 +1,10 @@
-// Where a requirement is missed: in which frame, by which limbs, and which parts of the objective
-// pull against each other there.
+// Why a requirement is missed: in which frame, by which limbs, which parts of the objective pull
+// against each other there, and which setting would change it. Sentences: tools/report.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +16,10 @@ namespace retarget::solver {
 inline constexpr int kConflictReach = 2;
 // Cosines above this are no opposition.
 inline constexpr double kOpposes = -0.3;
+// Share of a pull that counts where none is large.
+inline constexpr double kCountingShare = 0.05;
+// Share of a pull that nothing takes, above which the solve has not settled.
+inline constexpr double kUnsettled = 0.5;
 
 // What opposes a requirement's own pull, in the frames about the worst miss, over the coordinates
 // that move the limbs in question.
@@ -29,18 +36,67 @@ struct Opposition {
 
   // Something pulls against it.
   bool opposed() const { return !shares.empty() && shares[0].cosine < kOpposes; }
+  bool settled() const { return std::abs(unopposed) < kUnsettled; }
 };
 
 Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
                         const RequirementCheck& check);
 
+// Why no solve with these settings meets the requirement.
+enum class Cause {
+  kPassThrough,     // no term sees limbs that change sides
+  kNoTerm,          // no term works for it
+  kLowTarget,       // the tag does not aim so high: tangle.margin
+  kLooseTemplate,   // the template itself shows no more
+  kNoWeight,        // the weight of its term is 0
+  kBetweenFrames,   // the frames themselves miss nothing
+  kFeetInOnePlace,  // the clips plant both feet in one place
+  kHoldOutOfReach,  // the planted feet are too far apart for the hold
+  kSameTerm,        // another part of its own term opposes it: no weight settles that
+  kFlatTangle,      // the tag's gradient has vanished
+  kLowWeight,       // the weight of its term is far below the default
+  kNotSettled,      // the pulls are not in balance
+  kOpposed,         // another term opposes it
+  kUnopposed        // no one term does
+};
+
+// A contact with whose foot it is.
+struct PlantedFoot {
+  int figure = 0;
+  Contact contact;
+};
+// Of an anchor (column of Unknowns::anchor).
+PlantedFoot FootOfAnchor(const Scene& scene, int anchor);
+
+// A setting, and a value that would help.
+struct Suggestion {
+  std::string setting;  // YAML key, such as weights.hold
+  double value = 0;
+  double now = 0;           // what it is
+  bool is_default = false;  // `value` is, and `now` is far from it
+};
+
+// Two points that a hold is to bring together.
+struct Reach {
+  std::array<std::optional<PlantedFoot>, 2> ground;  // where each end is tied down: a planted foot,
+                                                     // or (nothing) its place in the world
+  double apart_m = 0;                                // these two
+  double reach_m = 0;                                // of the bodies between them, stretched
+};
+
 struct Conflict {
-  std::string requirement;         // RequirementCheck::name
-  int frame = -1;                  // of the worst miss; -1: none
-  std::vector<std::string> limbs;  // "a left_hand"
-  std::vector<std::string> terms;  // the requirement's and what opposes it most; fewer: none does
-  double cosine = 0;               // of these two; 0 where there are not two
-  std::string sentence;            // what, where, why, and what to do
+  RequirementCheck check;  // that is missed
+  Cause cause = Cause::kUnopposed;
+  Opposition opposition;
+  std::optional<PlantedFoot> opposing_foot;  // where Opposition::item is an anchor
+  std::optional<Suggestion> suggestion;
+  std::vector<PlantedFoot> feet;  // kFeetInOnePlace: both
+  Reach reach;                    // kHoldOutOfReach
+  double gli_slope = 0;           // kFlatTangle: turns per rad or m
+  int pass_throughs = 0;          // kPassThrough: how many there are
+
+  // The requirement's and what opposes it most; fewer: none does.
+  std::vector<std::string> terms() const;
 };
 
 // One conflict per missed requirement, in the order of the checks.

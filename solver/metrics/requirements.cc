@@ -4,12 +4,9 @@
 #include <utility>
 
 namespace retarget::solver {
-
-bool AllMet(const std::vector<RequirementCheck>& checks) {
-  return std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
-}
-
 namespace {
+
+using Kind = RequirementKind;
 
 class Requiring {
  public:
@@ -25,93 +22,63 @@ class Requiring {
   }
 
  private:
-  std::string NameOf(int f, int n) const { return subject_.body[f].nodes[n].name; }
-  static std::string FrameName(int t) { return "frame " + std::to_string(t); }
+  // What is to stay at or under its limit.
+  RequirementCheck& AtMost(Kind kind, double value, double limit) {
+    checks_.push_back({.kind = kind, .value = value, .limit = limit, .met = value <= limit});
+    return checks_.back();
+  }
 
   void CheckTangle(int k) {
     const Tangle& t = subject_.tangles[k].tag.tangle;
     const TangleMetrics& m = m_.tangles[k];
     const double value = std::min(m.min_signed_gli, m.min_signed_gli_between);
-    checks_.push_back({"tangle " + std::to_string(k + 1),
-                       value,
-                       r_.gli,
-                       "turns",
-                       value > r_.gli,
-                       "a (" + NameOf(0, t.a.from) + ", " + NameOf(0, t.a.to) + ") x b (" +
-                           NameOf(1, t.b.from) + ", " + NameOf(1, t.b.to) + "), " +
-                           FrameName(m.worst_frame),
-                       "tangle",
-                       k,
-                       m.worst_frame,
-                       {{0, t.a.from}, {0, t.a.to}, {1, t.b.from}, {1, t.b.to}}});
+    checks_.push_back({.kind = Kind::kTangle,
+                       .item = k,
+                       .value = value,
+                       .limit = r_.gli,
+                       .met = value > r_.gli,
+                       .frame = m.worst_frame,
+                       .limbs = {{0, t.a.from}, {0, t.a.to}, {1, t.b.from}, {1, t.b.to}}});
   }
 
   void CheckBetweenBodies() {
-    const double passes = static_cast<double>(m_.pass_throughs.size());
-    RequirementCheck pass{"pass-throughs",
-                          passes,
-                          static_cast<double>(r_.pass_throughs),
-                          "",
-                          passes <= r_.pass_throughs,
-                          ""};
+    RequirementCheck& pass =
+        AtMost(Kind::kPassThroughs, static_cast<double>(m_.pass_throughs.size()), r_.pass_throughs);
     if (!m_.pass_throughs.empty()) {
       const PassThrough& p = m_.pass_throughs[0];
-      pass.where =
-          FrameName(p.frame) + ", a " + NameOf(0, p.node_a) + " through b " + NameOf(1, p.node_b);
       pass.frame = p.frame;
       pass.limbs = {{0, p.node_a}, {1, p.node_b}};
     }
-    checks_.push_back(pass);
     const double deepest = std::max(m_.penetration_m, m_.penetration_between_m);
-    RequirementCheck depth{
-        "penetration", deepest, r_.penetration_m, "m", deepest <= r_.penetration_m, "",
-        "penetration"};
-    if (deepest > 0) {
-      depth.where = FrameName(m_.penetration_frame) + ", a " + NameOf(0, m_.penetration_node_a) +
-                    " in b " + NameOf(1, m_.penetration_node_b);
-      depth.frame = m_.penetration_frame;
-      depth.limbs = {{0, m_.penetration_node_a}, {1, m_.penetration_node_b}};
+    AtMost(Kind::kPenetration, deepest, r_.penetration_m);
+    AtMost(Kind::kPenetrationOver1cm, m_.penetration_over_1cm_percent, r_.penetration_1cm_percent);
+    if (deepest <= 0) return;
+    for (size_t k = checks_.size() - 2; k < checks_.size(); ++k) {
+      checks_[k].frame = m_.penetration_frame;
+      checks_[k].limbs = {{0, m_.penetration_node_a}, {1, m_.penetration_node_b}};
     }
-    checks_.push_back(depth);
-    checks_.push_back({kDeepFrames, m_.penetration_over_1cm_percent, r_.penetration_1cm_percent,
-                       "% of frames", m_.penetration_over_1cm_percent <= r_.penetration_1cm_percent,
-                       "", depth.term, -1, depth.frame, depth.limbs});
   }
 
   void CheckFigure(int f) {
-    const std::string who = f == 0 ? "a" : "b";
     const FigureMetrics& m = m_.figure[f];
-    checks_.push_back({"foot drift " + who,
-                       m.foot_drift_m,
-                       r_.foot_drift_m,
-                       "m",
-                       m.foot_drift_m <= r_.foot_drift_m,
-                       FrameName(m.foot_drift_frame),
-                       "foot_lock",
-                       -1,
-                       m.foot_drift_frame,
-                       {{f, m.foot_drift_node}}});
-    checks_.push_back({"floor " + who,
-                       m.floor_m,
-                       r_.floor_m,
-                       "m",
-                       m.floor_m <= r_.floor_m,
-                       "",
-                       "ground",
-                       -1,
-                       m.floor_frame,
-                       {{f, m.floor_node}}});
+    RequirementCheck& drift = AtMost(Kind::kFootDrift, m.foot_drift_m, r_.foot_drift_m);
+    drift.figure = f;
+    drift.frame = m.foot_drift_frame;
+    drift.limbs = {{f, m.foot_drift_node}};
+    RequirementCheck& floor = AtMost(Kind::kFloor, m.floor_m, r_.floor_m);
+    floor.figure = f;
+    floor.frame = m.floor_frame;
+    floor.limbs = {{f, m.floor_node}};
   }
 
   void CheckHold(int k) {
-    std::vector<LimbNode> limbs;
+    RequirementCheck& check = AtMost(Kind::kHold, m_.hold_m[k], r_.hold_m);
+    check.item = k;
+    check.frame = m_.hold_frame[k];
     const Hold& hold = subject_.holds[k];
     for (const HoldPoint& point : {hold.from, hold.to}) {
-      if (point.figure != kWorld) limbs.push_back({point.figure, point.node});
+      if (point.figure != kWorld) check.limbs.push_back({point.figure, point.node});
     }
-    checks_.push_back({"hold " + std::to_string(k + 1), m_.hold_m[k], r_.hold_m, "m",
-                       m_.hold_m[k] <= r_.hold_m, FrameName(m_.hold_frame[k]), "hold", k,
-                       m_.hold_frame[k], limbs});
   }
 
   const MeasureSubject& subject_;
@@ -122,10 +89,55 @@ class Requiring {
 
 }  // namespace
 
+std::string TermOf(RequirementKind kind) {
+  switch (kind) {
+    case Kind::kTangle:
+      return "tangle";
+    case Kind::kPenetration:
+    case Kind::kPenetrationOver1cm:
+      return "penetration";
+    case Kind::kFootDrift:
+      return "foot_lock";
+    case Kind::kFloor:
+      return "ground";
+    case Kind::kHold:
+      return "hold";
+    case Kind::kPassThroughs:
+    case Kind::kSegmentLength:
+    case Kind::kWriteBack:
+      return "";
+  }
+  return "";
+}
+
+bool AllMet(const std::vector<RequirementCheck>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
+}
+
 std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject,
                                                 const Metrics& metrics,
                                                 const Requirements& requirements) {
   return Requiring(subject, metrics, requirements).Run();
+}
+
+std::vector<RequirementCheck> CheckWritten(const Metrics& metrics,
+                                           const std::array<double, 2>& write_back_m,
+                                           const Requirements& requirements) {
+  std::vector<RequirementCheck> checks;
+  for (int f = 0; f < 2; ++f) {
+    const double length = metrics.figure[f].length_error_percent;
+    checks.push_back({.kind = Kind::kWriteBack,
+                      .figure = f,
+                      .value = write_back_m[f],
+                      .limit = requirements.write_back_m,
+                      .met = write_back_m[f] <= requirements.write_back_m});
+    checks.push_back({.kind = Kind::kSegmentLength,
+                      .figure = f,
+                      .value = length,
+                      .limit = requirements.segment_length_percent,
+                      .met = length <= requirements.segment_length_percent});
+  }
+  return checks;
 }
 
 }  // namespace retarget::solver

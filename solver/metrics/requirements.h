@@ -1,6 +1,7 @@
 // What a solved scene must show, checked against its metrics.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,23 +11,43 @@
 
 namespace retarget::solver {
 
-inline constexpr const char* kDeepFrames = "penetration over 1 cm";  // a requirement's name
+// What is required, and in which unit its value and limit are.
+enum class RequirementKind {
+  kTangle,              // turns, of a tag: s GLI stays above the limit
+  kPassThroughs,        // count
+  kPenetration,         // m, between the bodies
+  kPenetrationOver1cm,  // % of frames
+  kFootDrift,           // m, of a figure
+  kFloor,               // m, of a figure
+  kHold,                // m, of a hold
+  kSegmentLength,       // %, of a figure as it is written
+  kWriteBack            // m, of a figure's own rig as it is written
+};
 
-// A requirement and whether it is met; `where` names frame and limb of the worst.
+// YAML key of the term that works for a requirement; empty where none does.
+std::string TermOf(RequirementKind kind);
+
+// A requirement, whether it is met, and where it is worst.
 struct RequirementCheck {
-  std::string name;
+  RequirementKind kind = RequirementKind::kTangle;
+  int item = -1;    // tag or hold, from 0; -1: it is about neither
+  int figure = -1;  // 0 or 1; -1: about both
   double value = 0, limit = 0;
-  std::string unit;
   bool met = true;
-  std::string where;
-  std::string term = {};             // that works for it; empty: none does
-  int item = -1;                     // tag or hold, from 0
   int frame = -1;                    // of the worst; -1: none
   std::vector<LimbNode> limbs = {};  // concerned in the worst
+  std::string file = {};             // that a write-back was read from, where it was
 };
 bool AllMet(const std::vector<RequirementCheck>& checks);
+
+// Of the motion.
 std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject,
                                                 const Metrics& metrics,
                                                 const Requirements& requirements);
+
+// Of what is written: `write_back_m` is the distance of each figure's own rig to the scene.
+std::vector<RequirementCheck> CheckWritten(const Metrics& metrics,
+                                           const std::array<double, 2>& write_back_m,
+                                           const Requirements& requirements);
 
 }  // namespace retarget::solver

@@ -20,9 +20,11 @@ constexpr double kLostGli = 0.5 * kTangleThreshold;  // turns
 // just be closing or opening.
 constexpr double kLostTime = 0.5;  // s
 
-void Stop(SimulationResult* result, SimulationStatus status, const std::string& message) {
+void Stop(SimulationResult* result, SimulationStatus status, const std::string& message,
+          int frame) {
   result->status = status;
   result->message = message;
+  result->frame = frame;
 }
 
 std::array<PosedBody, 2> PosedAt(const Scene& scene, const SimulationResult& result, int t) {
@@ -52,7 +54,8 @@ void JudgeTags(const Scene& scene, SimulationResult* result) {
          "it lost the tag a (" + name(0, t.a.from) + ", " + name(0, t.a.to) + ") x b (" +
              name(1, t.b.from) + ", " + name(1, t.b.to) + ") for good " +
              (at_end ? "at frame " + std::to_string(first)
-                     : "before frame " + std::to_string(last + 1)));
+                     : "before frame " + std::to_string(last + 1)),
+         at_end ? first : last + 1);
     return;
   }
 }
@@ -66,7 +69,8 @@ void JudgePassThroughs(const Scene& scene, SimulationResult* result) {
     if (jump.size > kPassThroughGli) {
       Stop(result, SimulationStatus::kPassedThrough,
            scene.body[0].nodes[jump.node_a].name + " of a went through " +
-               scene.body[1].nodes[jump.node_b].name + " of b at frame " + std::to_string(t));
+               scene.body[1].nodes[jump.node_b].name + " of b at frame " + std::to_string(t),
+           t);
       return;
     }
     before = now;
@@ -79,7 +83,7 @@ void JudgeStray(const Stray& stray, SimulationResult* result) {
   char text[100];
   std::snprintf(text, sizeof text, "%s strayed %.2f m from its way at frame %d",
                 stray.figure == 0 ? "a" : "b", stray.distance_m, stray.frame);
-  Stop(result, SimulationStatus::kStrayed, text);
+  Stop(result, SimulationStatus::kStrayed, text, stray.frame);
 }
 
 }  // namespace

@@ -237,15 +237,16 @@ class Run {
       if (-off.y() < kFallen * scene_.body[f].stature) continue;
       char text[100];
       std::snprintf(text, sizeof text, "%s fell at frame %d", f == 0 ? "a" : "b", t);
-      Stop(SimulationStatus::kFell, text);
+      Stop(SimulationStatus::kFell, text, t);
       return true;
     }
     return false;
   }
 
-  void Stop(SimulationStatus status, const std::string& message) {
+  void Stop(SimulationStatus status, const std::string& message, int frame = -1) {
     result_.status = status;
     result_.message = message;
+    result_.frame = frame;
   }
 
   struct Foot {

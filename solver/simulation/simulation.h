@@ -23,6 +23,7 @@ struct SimulationResult {
   std::array<Clip, 2> motion;  // as many frames as the scene; where it broke off, the last held
   SimulationStatus status = SimulationStatus::kCompleted;
   std::string message;  // one sentence: how it went
+  int frame = -1;       // that the message names; -1: none
   double settle_s = 0;  // simulated, until at rest
   bool settled = false;
   double settle_distance_m = 0;  // mean distance of a node from the template posture when at rest

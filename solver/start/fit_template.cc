@@ -54,6 +54,14 @@ int StepsBetween(const Body& from, const Body& to) {
 
 }  // namespace
 
+ReductionOptions ReductionOf(const TangleSettings& settings) {
+  ReductionOptions options;
+  options.min_rho = settings.min_rho;
+  options.min_rho_share = settings.min_rho_share;
+  options.max_tags = settings.max_tags;
+  return options;
+}
+
 TemplateTangles FindTemplateTangles(const TemplatePosture& posture,
                                     const TangleSettings& settings) {
   const std::array<PosedBody, 2> posed = PosedFigures(posture);
@@ -70,11 +78,7 @@ TemplateTangles FindTemplateTangles(const TemplatePosture& posture,
     }
     return out;
   }
-  ReductionOptions options;
-  options.min_rho = settings.min_rho;
-  options.min_rho_share = settings.min_rho_share;
-  options.max_tags = settings.max_tags;
-  out.tags = ReduceTangles(a, posed[0], b, posed[1], out.literal, table, options);
+  out.tags = ReduceTangles(a, posed[0], b, posed[1], out.literal, table, ReductionOf(settings));
   return out;
 }
 

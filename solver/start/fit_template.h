@@ -14,6 +14,9 @@ struct TemplateTangles {
   std::vector<Tangle> literal;
   std::vector<Tag> tags;
 };
+// How tags are chosen among what is found.
+ReductionOptions ReductionOf(const TangleSettings& settings);
+
 TemplateTangles FindTemplateTangles(const TemplatePosture& posture, const TangleSettings& settings);
 
 // Fits a template to other bodies: joint rotations are tracked while one-frame solves with the

@@ -32,7 +32,7 @@ std::string ParseError(const std::string& text) {
 
 std::string SetError(const std::string& assignment) {
   Settings settings;
-  return MessageOf([&] { SetByName(&settings, assignment); });
+  return MessageOf([&] { SetByName(&settings, assignment, "--set"); });
 }
 
 // Every key with its exact value.

@@ -44,7 +44,7 @@ holds:
 supports: {b: [right_toe, right_ankle]}
 root: {a: own, b: partner}
 tangles:
-  - {a: [right_hand, left_hand], b: [right_wrist, right_knee], from: 0.5, to: 2.5}
+  - {a: [right_hand, left_hand], b: [right_wrist, right_knee]}
   - {a: [root, head_top], b: [left_toe, neck]}
 photo: {file: p.jpg, opacity: 0.25, scale: 2, offset: [3, -4]}
 camera: {eye: [1, 2, 3], target: [0, 1.5, 0], fov_deg: 35}
@@ -130,8 +130,6 @@ void ExpectSamePosture(const TemplatePosture& x, const TemplatePosture& y) {
   for (size_t t = 0; t < x.tangles.size(); ++t) {
     EXPECT_EQ(x.tangles[t].a, y.tangles[t].a);
     EXPECT_EQ(x.tangles[t].b, y.tangles[t].b);
-    EXPECT_EQ(x.tangles[t].from_s, y.tangles[t].from_s);
-    EXPECT_EQ(x.tangles[t].to_s, y.tangles[t].to_s);
   }
   ExpectSameView(x, y);
 }
@@ -155,10 +153,7 @@ TEST(TemplateFileTest, ReadsTheExample) {
   ASSERT_EQ(p.tangles.size(), 2u);
   EXPECT_EQ(p.tangles[0].a, (Path{8, 12}));  // written the other way round
   EXPECT_EQ(p.tangles[0].b, (Path{11, 18}));
-  EXPECT_EQ(p.tangles[0].from_s, 0.5);
-  EXPECT_EQ(p.tangles[0].to_s, 2.5);
   EXPECT_EQ(p.tangles[1].b, (Path{2, 16}));
-  EXPECT_FALSE(p.tangles[1].from_s);
   EXPECT_EQ(p.photo->file, "p.jpg");
   EXPECT_EQ(p.photo->opacity, 0.25);
   EXPECT_EQ(p.photo->offset, Eigen::Vector2d(3, -4));
@@ -273,7 +268,7 @@ TemplatePosture RandomPosture(std::mt19937* random) {
   hold.relative_rotation = Quat(Mat3(posed[1].rotation[p.body[1].nodes[12].link].transpose() *
                                      posed[0].rotation[p.body[0].nodes[8].link]));
   p.holds = {hold, {{1, 3, vector(1e-4)}, {kWorld, 0, vector(2)}, false, Quat::Identity()}};
-  p.tangles = {{{3, 8}, {0, 12}, draw(0, 1), std::nullopt}};
+  p.tangles = {{{3, 8}, {0, 12}}};
   return p;
 }
 
@@ -435,8 +430,13 @@ TEST(TemplateFileTest, RefusesBadHoldsAndTheRest) {
        "t.yaml:31: tangles[0].a: expected a list of 2 nodes, found a list of 1"},
       {"a: [right_hand, left_hand]", "a: [right_hand, right_hand]",
        "t.yaml:31: tangles[0].a: expected two different nodes"},
-      {"from: 0.5, to: 2.5", "from: 2.5, to: 0.5",
-       "t.yaml:31: tangles[0].to: expected a number from 2.5 to"},
+      {"b: [right_wrist, right_knee]", "b: [right_wrist, right_knee], to: 2.5",
+       "t.yaml:31: tangles[0].to: a tangle holds throughout: windows in time are not supported "
+       "yet"},
+      {"b: [right_wrist, right_knee]", "from: 0, b: [right_wrist, right_knee]",
+       "t.yaml:31: tangles[0].from: a tangle holds throughout"},
+      {"b: [right_wrist, right_knee]", "b: [right_wrist, right_knee], form: 0",
+       "t.yaml:31: unknown key \"tangles[0].form\", expected one of a, b"},
       {"opacity: 0.25", "opacity: 25",
        "t.yaml:33: photo.opacity: expected a number from 0 to 1, found \"25\""},
       {"file: p.jpg, ", "", "t.yaml:33: missing key \"photo.file\""},

@@ -1,5 +1,5 @@
-// Positions of a scene's nodes at its keys, from the bytes of the file alone: no library, and nothing
-// of the pages' code.
+// Positions of a scene's nodes at its keys, from the bytes of the file alone: no library, and
+// nothing of the pages' code.
 import { readFileSync } from "node:fs";
 
 const kComponents = { SCALAR: 1, VEC3: 3, VEC4: 4, MAT4: 16 };
@@ -14,7 +14,6 @@ function turned([x, y, z, w], p) {
   ];
 }
 
-
 export class Glb {
   constructor(path) {
     const bytes = readFileSync(path);
@@ -22,7 +21,9 @@ export class Glb {
     this.json = JSON.parse(bytes.subarray(20, 20 + length).toString("utf8"));
     this.bin = bytes.subarray(20 + length + 8);
     this.parent = new Map();
-    this.json.nodes.forEach((node, k) => (node.children ?? []).forEach((c) => this.parent.set(c, k)));
+    this.json.nodes.forEach((node, k) =>
+      (node.children ?? []).forEach((c) => this.parent.set(c, k)),
+    );
     this.tracks = new Map(); // "node path" -> rows
     const { channels, samplers } = this.json.animations[0];
     for (const { target, sampler } of channels) {
@@ -36,16 +37,23 @@ export class Glb {
     const start = (this.json.bufferViews[bufferView].byteOffset ?? 0) + byteOffset;
     const width = kComponents[type];
     return Array.from({ length: count }, (_, k) =>
-      Array.from({ length: width }, (_, c) => this.bin.readFloatLE(start + 4 * (k * width + c))));
+      Array.from({ length: width }, (_, c) => this.bin.readFloatLE(start + 4 * (k * width + c))),
+    );
   }
 
   names() {
-    return this.json.nodes.filter((n) => /^[ab]\/(?!joint\/)/.test(n.name ?? "")).map((n) => n.name);
+    return this.json.nodes
+      .filter((n) => /^[ab]\/(?!joint\/)/.test(n.name ?? ""))
+      .map((n) => n.name);
   }
 
   position(name, frame) {
     let p = [0, 0, 0];
-    for (let n = this.json.nodes.findIndex((x) => x.name === name); n !== undefined; n = this.parent.get(n)) {
+    for (
+      let n = this.json.nodes.findIndex((x) => x.name === name);
+      n !== undefined;
+      n = this.parent.get(n)
+    ) {
       const node = this.json.nodes[n];
       const q = this.tracks.get(`${n} rotation`)?.[frame] ?? node.rotation ?? [0, 0, 0, 1];
       const t = this.tracks.get(`${n} translation`)?.[frame] ?? node.translation ?? [0, 0, 0];

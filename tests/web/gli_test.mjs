@@ -1,30 +1,20 @@
 // The pages' Gauss Linking Integral against numerical integration in high precision:
-//   node gli_test.mjs SHARED_DIR WEB_BUILD
-// Exit code 77 where the reference data or the pages' tools are not there.
+//   node gli_test.mjs GOLDEN_DIR WEB_BUILD
+// Exit code 77 where the pages' tools are not there.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { pathToFileURL } from "node:url";
+import { canBundle, modulesOf } from "./bundle.mjs";
 
-const [shared, build] = process.argv.slice(2);
-const golden = (name) => JSON.parse(readFileSync(join(shared, "golden", name), "utf8"));
-if (!existsSync(join(shared, "golden", "segment_pairs.json")) || !existsSync(join(build, "node_modules"))) {
-  console.log(`skipped: no reference data at ${shared}, or no ${build}/node_modules`);
+const [folder, build] = process.argv.slice(2);
+const golden = (name) => JSON.parse(readFileSync(join(folder, name), "utf8"));
+if (!canBundle(build)) {
+  console.log(`skipped: no ${build}/node_modules`);
   process.exit(77);
 }
-const esbuild = createRequire(join(build, "here.js"))("esbuild");
-const bundle = join(build, "gli_for_test.mjs");
-writeFileSync(bundle, esbuild.buildSync({
-  stdin: {
-    contents: 'export * from "./src/shared/gli"; export * from "./src/shared/body";',
-    resolveDir: build,
-  },
-  bundle: true, write: false, format: "esm",
-}).outputFiles[0].text);
 const { findNode, gliTable, nodeNames, numSegments, parentOf, pathGli, pathSigns, segmentGli } =
-  await import(pathToFileURL(bundle));
+  await modulesOf(build, "gli_for_test", ["shared/gli", "shared/body"]);
 
 const ofPair = ({ a, b, c, d }) => segmentGli([...a, ...b], 0, 1, [...c, ...d], 0, 1);
 
@@ -41,7 +31,10 @@ test("degenerate segment pairs", () => {
   assert.ok(pairs.length >= 20);
   for (const pair of pairs) {
     const value = pair.touching ? 0 : Number(pair.gli);
-    assert.ok(Math.abs(ofPair(pair) - value) <= Number(pair.tol_abs ?? 1e-12), `${pair.id}: ${ofPair(pair)}`);
+    assert.ok(
+      Math.abs(ofPair(pair) - value) <= Number(pair.tol_abs ?? 1e-12),
+      `${pair.id}: ${ofPair(pair)}`,
+    );
   }
 });
 
@@ -52,7 +45,9 @@ test("tables and paths of whole bodies", () => {
     const table = gliTable(posture.A.flat(), posture.B.flat());
     const rows = posture.gli_segments.flat().map(Number);
     assert.equal(rows.length, numSegments ** 2);
-    rows.forEach((value, k) => assert.ok(Math.abs(table[k] - value) < 1e-12, `${posture.name} ${k}`));
+    rows.forEach((value, k) =>
+      assert.ok(Math.abs(table[k] - value) < 1e-12, `${posture.name} ${k}`),
+    );
     const signs = (path) => pathSigns(...path.map((name) => posture.nodes.indexOf(name)));
     assert.ok(posture.tangles.length > 200);
     for (const { a, b, gli } of posture.tangles) {
@@ -65,7 +60,13 @@ test("a path is the sum of its segments, turned where it runs inward", () => {
   const signs = pathSigns(findNode("left_hand"), findNode("right_elbow"));
   const walked = nodeNames.slice(1).filter((_, k) => signs[k] !== 0);
   assert.deepEqual(walked.sort(), [
-    "left_elbow", "left_hand", "left_shoulder", "left_wrist", "right_elbow", "right_shoulder"]);
+    "left_elbow",
+    "left_hand",
+    "left_shoulder",
+    "left_wrist",
+    "right_elbow",
+    "right_shoulder",
+  ]);
   assert.equal(signs[findNode("left_wrist") - 1], -1);
   assert.equal(signs[findNode("right_elbow") - 1], 1);
   const ones = new Float64Array(numSegments ** 2).fill(1);

@@ -5,50 +5,35 @@
 // playwright-core (in RETARGET_NODE_MODULES) is not there, or the page was built without players.
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
+import { launch, listen, skip } from "./browser.mjs";
 import { Glb } from "./glb.mjs";
 
 const folder = resolve(process.argv[2] ?? ".");
 const pagePath = join(folder, "report.html");
-const chromiumPath = process.env.RETARGET_CHROMIUM ?? "/usr/bin/chromium";
-
-function skip(reason) {
-  console.log(`skipped: ${reason}`);
-  process.exit(77);
-}
-function playwright() {
-  try {
-    const home = resolve(process.env.RETARGET_NODE_MODULES ?? "node_modules");
-    return createRequire(join(home, "here.js"))("playwright-core");
-  } catch (error) {
-    return skip(`playwright-core not found: ${error.message.split("\n")[0]}`);
-  }
-}
 if (!existsSync(pagePath)) skip(`no ${pagePath}`);
-if (!existsSync(chromiumPath)) skip(`no ${chromiumPath}`);
 const html = readFileSync(pagePath, "utf8");
 if (!html.includes('id="series"')) skip("the page was built without players");
-const { chromium } = playwright();
 
-const element = (id) => new RegExp(`<script type="[^"]*" id="${id}">([^]*?)</script>`).exec(html)?.[1];
+const element = (id) =>
+  new RegExp(`<script type="[^"]*" id="${id}">([^]*?)</script>`).exec(html)?.[1];
 const report = JSON.parse(element("report"));
 const series = JSON.parse(element("series"));
 const scenes = { source: "source.glb", result: "scene.glb" };
 if (element("baseline-glb")) scenes.baseline = "baseline.glb";
 const glb = Object.fromEntries(
-  Object.entries(scenes).map(([which, file]) => [which, new Glb(join(folder, file))]));
+  Object.entries(scenes).map(([which, file]) => [which, new Glb(join(folder, file))]),
+);
 const last = series.frames - 1;
 const some = [...new Set([0, 1, Math.floor(last / 3), Math.floor((2 * last) / 3), last])];
 
-const kSoftwareGl = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 let browser;
 const scratch = mkdtempSync(join(tmpdir(), "retarget-page-"));
 before(async () => {
-  browser = await chromium.launch({ executablePath: chromiumPath, args: kSoftwareGl });
+  browser = await launch();
 });
 after(async () => {
   await browser?.close();
@@ -59,8 +44,7 @@ after(async () => {
 async function open({ path = pagePath, from = browser, ...options } = {}) {
   const page = await from.newPage({ viewport: { width: 1280, height: 720 }, ...options });
   const noise = [];
-  page.on("console", (message) => noise.push(`${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => noise.push(`error: ${error.message}`));
+  listen(page, noise);
   page.on("request", (request) => {
     const url = request.url();
     if (url !== pathToFileURL(path).href && !url.startsWith("data:")) noise.push(`request: ${url}`);
@@ -87,7 +71,9 @@ const seek = (page, frame) => page.evaluate((f) => window.retargetReport.seek(f)
 const frameOf = (page) => page.evaluate(() => window.retargetReport.frame);
 const numberIn = (text) => Number(/-?\d+(\.\d+)?/.exec(text)[0]);
 const pixels = async (page) => {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
   return page.evaluate(() => document.querySelector("canvas.viewer").toDataURL());
 };
 
@@ -99,7 +85,8 @@ async function assertPlayersStandAt(page, frame) {
     assert.equal(names.length, 42);
     const got = await page.evaluate(
       ([which_, names_]) => names_.map((n) => window.retargetReport.playerNodePosition(which_, n)),
-      [which, names]);
+      [which, names],
+    );
     names.forEach((name, k) => {
       const expected = scene.position(name, frame);
       const error = Math.hypot(...expected.map((x, c) => x - got[k][c]));
@@ -112,7 +99,9 @@ async function assertPlayersStandAt(page, frame) {
 test("opens small, quietly and without network", async () => {
   assert.ok(statSync(pagePath).size < 4e6, `${statSync(pagePath).size} bytes`);
   const { page, noise } = await open();
-  console.log(`ready after ${Math.round(await page.evaluate(() => window.retargetReport.readyMs))} ms`);
+  console.log(
+    `ready after ${Math.round(await page.evaluate(() => window.retargetReport.readyMs))} ms`,
+  );
   assert.deepEqual(noise, []);
   await page.close();
 });
@@ -134,8 +123,14 @@ test("players show the frame that the page says", async () => {
     await assertPlayersStandAt(page, frame);
     for (const which of Object.keys(glb)) {
       for (let tag = 0; tag < report.tangles.length; ++tag) {
-        const gli = await page.evaluate(([w, k]) => window.retargetReport.playerTagGli(w, k), [which, tag]);
-        assert.ok(Math.abs(gli - series[which].tangles[tag][frame]) < 1e-3, `${which} tag ${tag}: ${gli}`);
+        const gli = await page.evaluate(
+          ([w, k]) => window.retargetReport.playerTagGli(w, k),
+          [which, tag],
+        );
+        assert.ok(
+          Math.abs(gli - series[which].tangles[tag][frame]) < 1e-3,
+          `${which} tag ${tag}: ${gli}`,
+        );
       }
     }
   }
@@ -170,7 +165,10 @@ test("scrubs by bar and by plot, with one cursor for all", async () => {
   assert.ok(Math.abs((await frameOf(page)) - last / 2) <= 1);
   const plots = page.locator(".plot:not(.wide) .u-over");
   assert.ok((await plots.count()) >= 4);
-  for (const [index, part] of [[0, 0.25], [2, 0.75]]) {
+  for (const [index, part] of [
+    [0, 0.25],
+    [2, 0.75],
+  ]) {
     await plots.nth(index).scrollIntoViewIfNeeded();
     const box = await plots.nth(index).boundingBox();
     await page.mouse.click(box.x + part * box.width, box.y + box.height * 0.6);
@@ -179,7 +177,10 @@ test("scrubs by bar and by plot, with one cursor for all", async () => {
     await assertPlayersStandAt(page, frame);
     await page.mouse.move(2, 2);
     for (const playhead of await page.locator(".plot:not(.wide) .playhead").all()) {
-      const [head, over] = [await playhead.boundingBox(), await playhead.locator("..").boundingBox()];
+      const [head, over] = [
+        await playhead.boundingBox(),
+        await playhead.locator("..").boundingBox(),
+      ];
       assert.ok(Math.abs(head.x - over.x - (frame / last) * over.width) < 2);
     }
   }
@@ -195,12 +196,20 @@ test("plots say the series' values", async () => {
   const { page } = await usual();
   const frame = some[2];
   await seek(page, frame);
-  const value = async (title, line) => numberIn(
-    await page.locator(`figure[data-plot="${title}"] .key span`, { hasText: line }).locator("b").textContent());
+  const value = async (title, line) =>
+    numberIn(
+      await page
+        .locator(`figure[data-plot="${title}"] .key span`, { hasText: line })
+        .locator("b")
+        .textContent(),
+    );
   for (const which of ["source", "result"]) {
     const s = series[which];
     assert.ok(Math.abs((await value("Tag 1: s GLI", which)) - s.tangles[0][frame]) <= 0.0051);
-    assert.ok(Math.abs((await value("Penetration between the bodies", which)) - s.penetration_cm[frame]) <= 0.0051);
+    assert.ok(
+      Math.abs((await value("Penetration between the bodies", which)) - s.penetration_cm[frame]) <=
+        0.0051,
+    );
     const speed = Math.max(s.foot_speed_cm_s.a[frame], s.foot_speed_cm_s.b[frame]);
     assert.ok(Math.abs((await value("Speed of planted feet", which)) - speed) <= 0.051);
   }
@@ -242,22 +251,26 @@ test("frames in tables are jumps", async () => {
 test("without a baseline a sentence stands in its place", async () => {
   const path = join(scratch, "no_baseline.html");
   const without = { ...series, baseline: null };
-  writeFileSync(path, html
-    .replace(element("series"), () => JSON.stringify(without))
-    .replace(/<script type="text\/plain" id="baseline-glb">[^]*?<\/script>/, ""));
+  writeFileSync(
+    path,
+    html
+      .replace(element("series"), () => JSON.stringify(without))
+      .replace(/<script type="text\/plain" id="baseline-glb">[^]*?<\/script>/, ""),
+  );
   const { page, noise } = await open({ path });
   assert.ok((await page.textContent(".panel[data-variant=baseline] .absent")).length > 10);
   await seek(page, 3);
   const [got, expected] = [
     await page.evaluate(() => window.retargetReport.playerNodePosition("result", "a/left_wrist")),
-    glb.result.position("a/left_wrist", 3)];
+    glb.result.position("a/left_wrist", 3),
+  ];
   assert.ok(Math.hypot(...expected.map((x, c) => x - got[c])) < 1e-5);
   assert.deepEqual(noise, []);
   await page.close();
 });
 
 test("without WebGL the plots and tables work and the page says so", async () => {
-  const plain = await chromium.launch({ executablePath: chromiumPath, args: ["--no-sandbox", "--disable-3d-apis"] });
+  const plain = await launch(["--disable-3d-apis"]);
   try {
     const { page, noise } = await open({ from: plain });
     assert.match(await page.textContent("#panels > .absent"), /no WebGL/);
@@ -267,7 +280,10 @@ test("without WebGL the plots and tables work and the page says so", async () =>
     await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
     assert.ok(Math.abs((await frameOf(page)) - last / 2) <= 1);
     assert.ok(await page.locator(".cards table").first().isVisible());
-    assert.deepEqual(noise.filter((line) => !/WebGL/.test(line)), []);
+    assert.deepEqual(
+      noise.filter((line) => !/WebGL/.test(line)),
+      [],
+    );
   } finally {
     await plain.close();
   }
@@ -275,15 +291,20 @@ test("without WebGL the plots and tables work and the page says so", async () =>
 
 test("prints in light colours, without controls, with whole tables", async () => {
   const { page } = await open({ colorScheme: "dark" });
-  const colour = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  const colour = () =>
+    page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
   assert.notEqual(await colour(), "rgb(255, 255, 255)");
   await page.emulateMedia({ media: "print" });
   await page.waitForFunction(() => document.querySelector("details").open);
   assert.equal(await colour(), "rgb(255, 255, 255)");
   assert.equal(await page.locator("#transport").isVisible(), false);
   assert.ok(await page.locator(".settings").isVisible());
-  const cut = await page.evaluate(() => [...document.querySelectorAll(".card")]
-    .filter((card) => card.scrollHeight > card.clientHeight + 1).length);
+  const cut = await page.evaluate(
+    () =>
+      [...document.querySelectorAll(".card")].filter(
+        (card) => card.scrollHeight > card.clientHeight + 1,
+      ).length,
+  );
   assert.equal(cut, 0);
   await page.emulateMedia({ media: "screen" });
   await page.waitForFunction(() => !document.querySelector("details").open);

@@ -1,71 +1,27 @@
 // Three of the shipped holds, made from an empty scene with nothing but the studio's page:
 //   node studio_holds_test.mjs RETARGET HOLDS
-// Each HOLDS/NAME/pose.sh lists the operations that made the template; here the page sends them, and
-// saves. Skips as studio_page_test.mjs does. RETARGET_STUDIO_PICTURES: a folder for a picture each.
+// Each HOLDS/NAME/pose.sh lists the operations that made the template; here the page sends them,
+// and saves. Skips as studio_page_test.mjs does. RETARGET_STUDIO_PICTURES: a folder for a picture
+// each.
 import assert from "node:assert/strict";
-import { execFileSync, spawn, spawnSync } from "node:child_process";
-import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { execFileSync } from "node:child_process";
+import { chmodSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { page, folder as holds, press, server, studioTest, until } from "./studio_person.mjs";
 
-const [program, holds] = process.argv.slice(2).map((path) => resolve(path));
-const chromiumPath = process.env.RETARGET_CHROMIUM ?? "/usr/bin/chromium";
 const pictures = process.env.RETARGET_STUDIO_PICTURES;
+const size = pictures ? { width: 1280, height: 720 } : {};
 
-function skip(reason) {
-  console.log(`skipped: ${reason}`);
-  process.exit(77);
-}
-let chromium;
-try {
-  const home = resolve(process.env.RETARGET_NODE_MODULES ?? "node_modules");
-  ({ chromium } = createRequire(join(home, "here.js"))("playwright-core"));
-} catch {
-  skip("playwright-core not found");
-}
-if (!existsSync(chromiumPath)) skip(`no ${chromiumPath}`);
-const usage = spawnSync(program, ["studio", "--help"], { encoding: "utf8" });
-if (usage.status !== 0 || /no page/.test(usage.stdout)) skip("the program has no studio");
-
-const scratch = mkdtempSync(join(tmpdir(), "retarget-holds-"));
-const library = join(scratch, "library");
-const noise = [];
-let server, url, browser, page;
-
-before(async () => {
-  mkdirSync(library);
-  server = spawn(program, ["studio", "--no-browser", "--library", library], {
-    env: { ...process.env, HOME: scratch, XDG_DATA_HOME: join(scratch, "data") },
-  });
-  url = await new Promise((done, failed) => {
-    server.stdout.on("data", (data) => {
-      const found = /http:\/\/\S+/.exec(String(data));
-      if (found) done(found[0]);
-    });
-    server.on("exit", () => failed(new Error("the studio ended")));
-  });
-  browser = await chromium.launch({
-    executablePath: chromiumPath,
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-  });
-});
-after(async () => {
-  await browser?.close();
-  server?.removeAllListeners("exit");
-  server?.kill("SIGINT");
-  rmSync(scratch, { recursive: true });
-});
-
-// -- What a script says, as the page says it ---------------------------------------------------------
+// -- What a script says, as the page says it ------------------------------------------------------
 
 // The words that pose.sh gives to `retarget pose`, told by a program that does nothing else.
 function wordsOf(hold) {
-  const echo = join(scratch, "echo.sh");
+  const echo = join(server.home, "echo.sh");
   writeFileSync(echo, "#!/bin/sh\nprintf '%s\\0' \"$@\"\n");
   chmodSync(echo, 0o755);
-  const said = execFileSync("sh", [join(holds, hold, "pose.sh"), echo, "unused"], { encoding: "utf8" });
+  const said = execFileSync("sh", [join(holds, hold, "pose.sh"), echo, "unused"], {
+    encoding: "utf8",
+  });
   return said.split("\0").slice(1, -1);
 }
 
@@ -97,7 +53,11 @@ const operations = {
   },
   turn: (v) => {
     const n = numbers(v.slice(2));
-    return { op: "turn_figure", figure: v[0], rotation: quaternion(n.length === 1 ? [0, n[0], 0] : n) };
+    return {
+      op: "turn_figure",
+      figure: v[0],
+      rotation: quaternion(n.length === 1 ? [0, n[0], 0] : n),
+    };
   },
   move: (v) => ({ op: "move_figure", figure: v[0], shift: numbers(v.slice(2)) }),
   rotate: (v) => {
@@ -105,7 +65,11 @@ const operations = {
     const [figure, joint] = halves(to, "/");
     const parts = value.split(",");
     return {
-      op: "rotate_joint", figure, joint, rotation: quaternion(parts.slice(0, 3).map(Number)), world: parts[3] === "world",
+      op: "rotate_joint",
+      figure,
+      joint,
+      rotation: quaternion(parts.slice(0, 3).map(Number)),
+      world: parts[3] === "world",
     };
   },
   drag: (v) => {
@@ -140,36 +104,14 @@ function* steps(words) {
   }
 }
 
-// -- The page ----------------------------------------------------------------------------------------
-
-// A page of its own for every hold: nothing is left of the one before.
-async function open() {
-  await page?.context().close();
-  const size = pictures ? { width: 1280, height: 720 } : { width: 1060, height: 620 };
-  page = await (await browser.newContext({ viewport: size })).newPage();
-  page.on("console", (message) => noise.push(`${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => noise.push(`error: ${error.message}`));
-  await page.goto(url, { timeout: 120000 });
-}
-
-// The page's policy forbids what page.waitForFunction does.
-async function until(holds) {
-  for (let tries = 0; tries < 600; ++tries) {
-    if (await page.evaluate(holds).catch(() => false)) return;
-    await page.waitForTimeout(50);
-  }
-  throw new Error(`never came true: ${holds}`);
-}
+// -- The page -------------------------------------------------------------------------------------
 
 // Numbers of a template by where they stand.
 const numbersIn = (yaml) => (yaml.match(/-?\d+(\.\d+)?(e-?\d+)?/g) ?? []).map(Number);
 const shapeOf = (yaml) => yaml.replace(/-?\d+(\.\d+)?(e-?\d+)?/g, "#");
 
 for (const hold of ["full_nelson", "rear_choke", "piggyback"]) {
-  test(`${hold}: made from an empty scene`, async () => {
-    await open();
-    await until(() => Boolean(window.retargetStudio));
-    await page.evaluate(() => window.retargetStudio.idle());
+  studioTest(`${hold}: made from an empty scene`, size, async () => {
     const ops = [...steps(wordsOf(hold))];
     assert.ok(ops.length > 20);
     const refused = await page.evaluate(async (all) => {
@@ -184,17 +126,15 @@ for (const hold of ["full_nelson", "rear_choke", "piggyback"]) {
     await page.keyboard.press("Enter");
     await until(() => window.retargetStudio.state().saved_as !== null);
     if (pictures) {
-      await page.keyboard.press("Home");
-      await page.evaluate(() => window.retargetStudio.idle());
+      await press("Home");
       await page.screenshot({ path: join(pictures, `${hold}.png`) });
     }
-    const saved = readFileSync(join(library, `${name}.yaml`), "utf8");
+    const saved = readFileSync(join(server.library, `${name}.yaml`), "utf8");
     const shipped = readFileSync(join(holds, hold, "template.yaml"), "utf8");
     assert.equal(shapeOf(saved), shapeOf(shipped));
     const [one, other] = [numbersIn(saved), numbersIn(shipped)];
     one.forEach((value, k) => {
       assert.ok(Math.abs(value - other[k]) < 0.05, `number ${k}: ${value} and ${other[k]}`);
     });
-    assert.deepEqual(noise.splice(0), []);
   });
 }

@@ -1,111 +1,83 @@
-// One person at the studio: its server, a browser with its page, and what hands do there.
-import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { after, before } from "node:test";
+// One person at the studio: a server of one's own, a page of it, and what hands do there.
+import assert from "node:assert/strict";
+import { resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { launch, listen, skip } from "./browser.mjs";
+import { hasStudio, StudioServer } from "./studio_server.mjs";
 
-export const [program, hold] = process.argv.slice(2).map((path) => resolve(path));
-const chromiumPath = process.env.RETARGET_CHROMIUM ?? "/usr/bin/chromium";
+// The program, and the folder that the test is about.
+export const [program, folder] = process.argv.slice(2).map((path) => resolve(path));
+if (!hasStudio(program)) skip("the program has no studio");
 
-function skip(reason) {
-  console.log(`skipped: ${reason}`);
-  process.exit(77);
-}
-function playwright() {
-  try {
-    const home = resolve(process.env.RETARGET_NODE_MODULES ?? "node_modules");
-    return createRequire(join(home, "here.js"))("playwright-core");
-  } catch (error) {
-    return skip(`playwright-core not found: ${error.message.split("\n")[0]}`);
-  }
-}
-if (!existsSync(chromiumPath)) skip(`no ${chromiumPath}`);
-const { chromium } = playwright();
-
-const kSoftwareGl = [
-  "--no-sandbox",
-  "--use-gl=angle",
-  "--use-angle=swiftshader",
-  "--enable-unsafe-swiftshader",
-  "--disable-gpu-rasterization", // the processor draws the page faster without a detour
-  "--disable-accelerated-2d-canvas",
-];
-const scratch = mkdtempSync(join(tmpdir(), "retarget-studio-"));
-export const library = join(scratch, "library");
-const clips = ["--clip-a", join(hold, "a.bvh"), "--clip-b", join(hold, "b.bvh")];
-export const noise = []; // what the console said
-export let page;
-let server, url, browser;
-
-// Starts the studio; resolves with its address.
-function serve(...more) {
-  mkdirSync(library, { recursive: true });
-  server = spawn(program, ["studio", "--no-browser", "--library", library, ...clips, ...more], {
-    env: { ...process.env, HOME: scratch, XDG_DATA_HOME: join(scratch, "data") },
-  });
-  return new Promise((done, failed) => {
-    let said = "";
-    server.stdout.on("data", (data) => {
-      said += data;
-      const found = /http:\/\/127\.0\.0\.1:\d+\/\?token=\S+/.exec(said);
-      if (found) done(found[0]);
-    });
-    server.stderr.on("data", (data) => (said += data));
-    server.on("exit", () => failed(new Error(`the studio ended: ${said}`)));
-  });
-}
-const stopServer = () =>
-  new Promise((done) => {
-    server.removeAllListeners("exit");
-    server.once("exit", done);
-    server.kill("SIGINT");
-  });
-
-const usage = spawnSync(program, ["studio", "--help"], { encoding: "utf8" });
-if (usage.status !== 0 || /no page/.test(usage.stdout)) skip("the program has no studio");
+export const noise = []; // what the console of the page said; none is left when a test ends
+export let server, page;
+let browser;
 
 before(async () => {
-  url = await serve("--template", join(hold, "template.yaml"));
-  if ((await (await fetch(url)).text()).length < 1e5)
-    skip("the program was built without the studio's page");
-  browser = await chromium.launch({ executablePath: chromiumPath, args: kSoftwareGl });
-  page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-  page.on("console", (message) => noise.push(`${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => noise.push(`error: ${error.message}`));
-  await open();
+  browser = await launch();
 });
-after(async () => {
-  await browser?.close();
-  if (server?.exitCode === null) await stopServer();
-  rmSync(scratch, { recursive: true });
-});
+after(() => browser?.close());
+
+// A test with a server, a library and so a session of its own: nothing is left of the one before.
+// `args` are the server's; without a template it begins with two T-poses. `prepare` is
+// told the library's folder, still empty. The size is that of the page: fewer pixels are less work
+// for a processor that draws.
+export function studioTest(name, { args = [], prepare, ...size }, act) {
+  test(name, async () => {
+    server = new StudioServer(program);
+    try {
+      prepare?.(server.library);
+      await server.start(...args);
+      await blankPage(size);
+      await open();
+      await act();
+      assert.deepEqual(noise, []);
+      await page.goto("about:blank"); // before the server goes, which the studio would miss
+    } catch (error) {
+      await page?.context().close();
+      page = null;
+      throw error;
+    } finally {
+      await server.remove();
+    }
+  });
+}
+
+// The tab is kept as long as all goes well, since a new one takes its time. Each server has a port,
+// and the page by it a storage, of its own.
+async function blankPage({ width = 1060, height = 620 }) {
+  if (!page) {
+    page = await browser.newPage();
+    listen(page, noise);
+  }
+  await page.setViewportSize({ width, height });
+  await page.mouse.move(0, 0);
+  noise.splice(0);
+}
 
 // Ends the studio and starts it anew at the same port; the page opens what it is given.
-export async function restart() {
-  const { port } = new URL(url);
-  await stopServer();
-  url = await serve("--port", port);
+export async function restart(...args) {
+  await server.restart(...args);
   await open();
 }
 
 async function open() {
-  await page.goto(url, { timeout: 120000 });
+  await page.goto(server.url, { timeout: 120000 });
+  if ((await page.content()).length < 1e5) skip("the program was built without the studio's page");
   await until(() => Boolean(window.retargetStudio));
   await idle();
 }
 
 // The page's policy forbids what page.waitForFunction does.
 export async function until(holds, argument) {
-  for (let tries = 0; tries < 600; ++tries) {
+  for (let tries = 0; tries < 1500; ++tries) {
     if (await page.evaluate(holds, argument).catch(() => false)) return;
-    await page.waitForTimeout(50);
+    await page.waitForTimeout(20);
   }
   throw new Error(`never came true: ${holds}`);
 }
 
-// -- A person's hands ------------------------------------------------------------------------------
+// -- A person's hands -----------------------------------------------------------------------------
 
 export const idle = () => page.evaluate(() => window.retargetStudio.idle());
 export const state = async () => {
@@ -162,6 +134,11 @@ export async function scaleOf(view) {
   const [p, q] = [place(now, "a/head_top"), place(now, "a/left_toe")];
   const [u, v] = [await at("a/head_top", view), await at("a/left_toe", view)];
   return (v.y - u.y) / (p[1] - q[1]);
+}
+// What the controls would send, as one step of the history.
+export async function operate(...ops) {
+  assert.ok(await page.evaluate((all) => window.retargetStudio.do(...all), ops));
+  await idle();
 }
 export const tab = (name) => page.click(`#tab-${name}`);
 

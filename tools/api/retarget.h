@@ -93,6 +93,11 @@ using Progress = solver::Progress;
 /// file, key or field, and what was expected.
 Result Run(const Request& request, const Progress& progress = {});
 
+/// What a requirement is called: "tangle 1", "foot drift a".
+std::string RequirementName(const solver::RequirementCheck& requirement);
+/// What is missed where, why, and which option of the program would help, in one sentence.
+std::string DiagnosisText(const solver::Conflict& diagnosis, const Result& result);
+
 /// "0.1.0"
 const char* Version();
 

@@ -6,7 +6,10 @@
 #include "tools/api/job.h"
 #include "tools/api/run_report.h"
 #include "tools/api/version.h"
+#include "tools/report/diagnosis_text.h"
+#include "tools/report/measured_scene.h"
 #include "tools/report/page.h"
+#include "tools/report/requirement_text.h"
 #include "tools/report/series.h"
 
 namespace retarget {
@@ -83,9 +86,10 @@ Result RunJob(const Job& job, const Progress& progress) {
   std::array<WrittenRig, 2> rig;
   for (int f = 0; f < 2; ++f) {
     rig[f] = WriteRig(job, result.run, f, solved.view(), &result.rig_motion[f]);
-    result.requirements.push_back({std::string("write-back ") + report::kFigure[f], rig[f].error_m,
-                                   report::kWriteBackLimit, "m",
-                                   rig[f].error_m <= report::kWriteBackLimit, ""});
+  }
+  for (const solver::RequirementCheck& check : solver::CheckWritten(
+           result.metrics, {rig[0].error_m, rig[1].error_m}, settings.requirements)) {
+    result.requirements.push_back(check);
   }
   const bool all_met = solver::AllMet(result.requirements);
   if (!all_met) {
@@ -143,6 +147,14 @@ const std::string& Result::File(const std::string& name) const {
 
 Result Run(const Request& request, const Progress& progress) {
   return api::RunJob(api::LoadJob(request), progress);
+}
+
+std::string RequirementName(const solver::RequirementCheck& requirement) {
+  return report::NameOf(requirement);
+}
+
+std::string DiagnosisText(const solver::Conflict& diagnosis, const Result& result) {
+  return report::ConflictSentence(diagnosis, solver::SubjectOf(result.run.scene));
 }
 
 const char* Version() { return api::kVersion; }

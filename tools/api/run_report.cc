@@ -6,6 +6,8 @@
 #include "solver/optimizer/kernels.h"
 #include "solver/problem/parallel.h"
 #include "tools/api/version.h"
+#include "tools/report/requirement_json.h"
+#include "tools/report/subject_json.h"
 
 namespace retarget::api {
 namespace {
@@ -149,8 +151,8 @@ report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
     report["write_back"][report::kFigure[f]] = WriteBackJson(run, f);
   }
   report["metrics"] = report::ThreeMetricsJson(run.subject, source, &baseline, metrics);
-  report["requirements"] = report::ChecksJson(run.checks);
-  report["conflicts"] = report::ConflictsJson(run.conflicts);
+  report["requirements"] = report::ChecksJson(run.checks, run.subject.body);
+  report["conflicts"] = report::ConflictsJson(run.conflicts, run.subject);
   report["warnings"] = result.warnings;
   report["literal_tangles"] = result.tangles.literal.size();
   report["solve"] = SolveJson(result);

@@ -6,6 +6,7 @@
 
 #include "solver/metrics/diagnosis.h"
 #include "tools/api/job.h"
+#include "tools/report/measured_scene.h"
 #include "tools/report/report.h"
 
 namespace retarget::api {

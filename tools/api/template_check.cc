@@ -38,8 +38,7 @@ std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::
   return warnings;
 }
 
-TemplateCheck CheckTemplate(const TemplatePosture& posture) {
-  const Settings settings;
+TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& settings) {
   TemplateCheck check;
   check.tangles = solver::FindTemplateTangles(posture, settings.tangle);
   solver::Scene scene;

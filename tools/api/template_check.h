@@ -18,7 +18,8 @@ struct TemplateCheck {
   std::vector<std::string> warnings;  // weak tags and the like
   bool met() const { return solver::AllMet(checks); }
 };
-TemplateCheck CheckTemplate(const TemplatePosture& posture);
+// With the tags and against the requirements of these settings.
+TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& settings = {});
 // What is to be said of weak tags.
 std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags);
 

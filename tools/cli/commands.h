@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/files.h"
 #include "io/load_clip.h"
 #include "model/body/template_posture.h"
 #include "tools/api/retarget.h"
@@ -22,6 +23,13 @@ enum ExitCode {
   kLimit = 4,
   kInterrupted = 130
 };
+
+// Where settings come from: a file, and single ones over it.
+struct SettingsOptions {
+  std::string config_path;       // empty: the defaults
+  std::vector<std::string> set;  // "key=value"
+};
+Settings SettingsOf(const SettingsOptions& options);  // throws InputError
 
 struct RetargetOptions {
   std::array<io::ClipOptions, 2> clip;
@@ -38,6 +46,11 @@ struct RetargetOptions {
 // Throws InputError.
 Request RequestOf(const RetargetOptions& options);
 
+// What the program calls the options of a clip.
+io::OptionWords ProgramWords();
+// A refusal to write, with the options that help.
+std::string WriteRefusalText(const io::WriteRefusal& refusal);
+
 int RunRetarget(const RetargetOptions& options);
 
 // Runs the forward simulation alone and writes baseline.glb and source.glb.
@@ -45,14 +58,14 @@ int RunSimulate(const RetargetOptions& options);
 
 int RunVerify(const std::string& folder, bool json);
 int RunCompare(const std::vector<std::string>& folders, bool json);
-int RunTangles(const std::string& path, bool json);
+int RunTangles(const std::string& path, const SettingsOptions& settings, bool json);
 int RunMap(const io::ClipOptions& clip, bool json, bool yaml);
 // The clip with left and right exchanged.
 int RunMirror(const io::ClipOptions& options, const std::string& out, bool force);
 // What is in a motion or character file of any format.
 int RunInspect(const io::ClipOptions& clip, bool json);
-int RunConfig(const std::string& config_path, const std::vector<std::string>& set);
-int RunTemplateCheck(const std::string& path, bool json);
+int RunConfig(const SettingsOptions& settings);
+int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, bool json);
 
 struct FromClipsOptions {
   std::array<io::ClipOptions, 2> clip;
@@ -73,6 +86,7 @@ struct PoseCommandOptions {
   };
   std::vector<Step> steps;
   std::string out;
+  SettingsOptions settings;
   bool json = false, force = false;
 };
 int RunPose(const PoseCommandOptions& options);
@@ -92,6 +106,7 @@ struct StudioOptions {
   std::string template_path, photo_path;  // to begin with; empty: none
   std::string library;                    // folder; empty: the shipped one and the user's own
   std::array<io::ClipOptions, 2> clip;    // to try a posture on
+  SettingsOptions settings;               // of its queries
   int port = 0;                           // 0: any that is free
   bool browser = true;                    // open the page
 };

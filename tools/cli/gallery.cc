@@ -70,6 +70,7 @@ std::vector<HoldFolder> FindHolds(const std::vector<std::string>& folders,
     }
     hold.run.clip[0].option = "a";
     hold.run.clip[1].option = "b";
+    for (io::ClipOptions& clip : hold.run.clip) clip.words = ProgramWords();
     hold.run.clip[0].path = ClipIn(folder, "a");
     hold.run.clip[1].path = ClipIn(folder, "b");
     hold.run.template_path = folder / "template.yaml";

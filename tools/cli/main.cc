@@ -27,10 +27,8 @@ int RunMap(const io::ClipOptions& options, bool json, bool yaml) {
   return kDone;
 }
 
-int RunConfig(const std::string& config_path, const std::vector<std::string>& set) {
-  Settings settings = config_path.empty() ? Settings{} : io::ReadSettings(config_path);
-  for (const std::string& assignment : set) io::SetByName(&settings, assignment);
-  fmt::print("{}", io::FormatSettings(settings));
+int RunConfig(const SettingsOptions& settings) {
+  fmt::print("{}", io::FormatSettings(SettingsOf(settings)));
   return kDone;
 }
 
@@ -41,6 +39,7 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
   const std::string suffix = figure.empty() ? "" : "-" + figure;
   const std::string group = figure.empty() ? "Options" : "Clip " + figure;
   clip->option = figure;
+  clip->words = ProgramWords();
   app->add_option("--units" + suffix, clip->units,
                   "cm, m, mm, in, cmu or metres per unit (default: guess)")
       ->group(group);
@@ -69,6 +68,11 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
       ->group(group);
 }
 
+void AddSettings(CLI::App* app, SettingsOptions* settings) {
+  app->add_option("--config", settings->config_path, "weights and settings (YAML)");
+  app->add_option("--set", settings->set, "one setting, such as tangle.max_tags=3 (repeatable)");
+}
+
 struct CommandLine {
   RetargetOptions retarget;
   FromClipsOptions from_clips;
@@ -76,8 +80,9 @@ struct CommandLine {
   GalleryOptions gallery;
   StudioOptions studio;
   io::ClipOptions map_clip;
-  std::string folder, file, config, check, picture;
-  std::vector<std::string> set, clips, folders;
+  SettingsOptions settings;
+  std::string folder, file, check, picture;
+  std::vector<std::string> clips, folders;
   bool json = false, yaml = false, force = false;
   int code = 0;
 
@@ -180,7 +185,8 @@ struct CommandLine {
         app->add_subcommand("tangles", "what is tangled in a template or in node positions");
     tangles->add_option("file", file, "template (YAML) or positions (JSON)")->required();
     tangles->add_flag("--json", json);
-    tangles->callback([this] { code = RunTangles(file, json); });
+    AddSettings(tangles, &settings);
+    tangles->callback([this] { code = RunTangles(file, settings, json); });
 
     CLI::App* map = app->add_subcommand("map", "what is recognised in a clip");
     map->add_option("file", map_clip.path, "clip: BVH, glTF, VRM, or SKELETON.asf:CLIP.amc")
@@ -210,11 +216,11 @@ struct CommandLine {
       code = RunInspect(map_clip, json);
     });
 
-    CLI::App* settings =
+    CLI::App* configuration =
         app->add_subcommand("config", "every setting with default, unit and meaning, as YAML");
-    settings->add_option("--config", config, "start from this file");
-    settings->add_option("--set", set, "change one setting");
-    settings->callback([this] { code = RunConfig(config, set); });
+    configuration->add_option("--config", settings.config_path, "start from this file");
+    configuration->add_option("--set", settings.set, "change one setting");
+    configuration->callback([this] { code = RunConfig(settings); });
 
     CLI::App* render =
         app->add_subcommand("render", "a picture of a run (source above result) or of a template");
@@ -242,13 +248,14 @@ struct CommandLine {
         ->default_str("from clips");
     posture->add_flag("--force", from_clips.force, "overwrite the file");
     posture->add_flag("--json", json);
+    AddSettings(posture, &settings);
     AddClipOptions(posture, &from_clips.clip[0], "a", false);
     AddClipOptions(posture, &from_clips.clip[1], "b", false);
     posture->callback([this] { code = RunTemplate(); });
   }
 
   int RunTemplate() {
-    if (!check.empty() && clips.empty()) return RunTemplateCheck(check, json);
+    if (!check.empty() && clips.empty()) return RunTemplateCheck(check, settings, json);
     if (!check.empty() || clips.empty() || from_clips.out.empty()) {
       throw InputError("template: expected --check FILE, or --from-clips A B --frame K --out FILE");
     }
@@ -272,6 +279,7 @@ struct CommandLine {
     posing->add_option("--out", pose.out, "template to write (YAML)");
     posing->add_flag("--json", pose.json, "print tangles, overlaps and warnings as JSON");
     posing->add_flag("--force", pose.force, "overwrite the file");
+    AddSettings(posing, &pose.settings);
     AddClipOptions(posing, &from_clips.clip[0], "a", false);
     AddClipOptions(posing, &from_clips.clip[1], "b", false);
     for (const posing::PoseWord& word : posing::PoseWords()) {
@@ -305,6 +313,7 @@ struct CommandLine {
                      "folder of templates (default: the shipped ones and your own)");
     page->add_option("--clip-a", studio.clip[0].path, "clip to try the posture on");
     page->add_option("--clip-b", studio.clip[1].path, "clip to try the posture on");
+    AddSettings(page, &studio.settings);
     page->add_option("--port", studio.port, "of 127.0.0.1; 0: any that is free")
         ->check(CLI::Range(0, 65535));
     page->add_flag("--no-browser,--print-url")->description("print the address only");
@@ -363,6 +372,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     fmt::print(stderr, "retarget: {}; see `retarget --help`\n", error.what());
+    return kBadInput;
+  } catch (const io::WriteRefusal& refusal) {
+    fmt::print(stderr, "retarget: {}\n", WriteRefusalText(refusal));
     return kBadInput;
   } catch (const InputError& error) {
     fmt::print(stderr, "retarget: {}\n", error.what());

@@ -52,7 +52,7 @@ std::optional<solver::PoseResult> Do(const posing::PoseStep& step, posing::PoseS
 }
 
 void PrintTable(const posing::PoseSession& session) {
-  const report::Json q = posing::QueriesJson(session.posture());
+  const report::Json q = posing::QueriesJson(session.posture(), nullptr, session.settings());
   fmt::print("{}: {} literal tangles, {} overlaps\n", session.posture().name,
              q["literal_tangles"].get<int>(), q["overlaps"].size());
   for (const report::Json& tag : q["tags"]) {
@@ -82,7 +82,7 @@ report::Json NodesJson(const TemplatePosture& posture) {
 }  // namespace
 
 int RunPose(const PoseCommandOptions& options) {
-  posing::PoseSession session(StartOf(options));
+  posing::PoseSession session(StartOf(options), SettingsOf(options.settings));
   report::Json solves = report::Json::array();
   bool missed = false;
   for (const PoseCommandOptions::Step& step : options.steps) {
@@ -106,7 +106,7 @@ int RunPose(const PoseCommandOptions& options) {
   }
   if (!options.out.empty()) session.Save(options.out, options.force);
   if (options.json) {
-    report::Json out = posing::QueriesJson(session.posture());
+    report::Json out = posing::QueriesJson(session.posture(), nullptr, session.settings());
     out["solves"] = solves;
     out["nodes"] = NodesJson(session.posture());
     fmt::print("{}\n", out.dump(1));

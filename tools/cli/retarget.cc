@@ -67,12 +67,18 @@ void CatchInterrupts() {
   std::signal(SIGINT, [](int) { interrupted = 1; });
 }
 
+Settings SettingsOf(const SettingsOptions& options) {
+  Settings settings =
+      options.config_path.empty() ? Settings{} : io::ReadSettings(options.config_path);
+  for (const std::string& assignment : options.set) io::SetByName(&settings, assignment, "--set");
+  return settings;
+}
+
 Request RequestOf(const RetargetOptions& options) {
   Request request;
   request.clip = options.clip;
   request.template_path = options.template_path;
-  if (!options.config_path.empty()) request.settings = io::ReadSettings(options.config_path);
-  for (const std::string& assignment : options.set) io::SetByName(&request.settings, assignment);
+  request.settings = SettingsOf({options.config_path, options.set});
   if (options.threads >= 0) request.settings.solve.threads = options.threads;
   request.fps = options.fps;
   request.frames = ParseFrames(options.frames);
@@ -107,7 +113,7 @@ int RunRetarget(const RetargetOptions& options) {
              report::MetricsTable(solver::SubjectOf(result.run.scene), result.source_metrics,
                                   &result.baseline_metrics, result.metrics, result.requirements));
   for (const solver::Conflict& conflict : result.diagnoses) {
-    fmt::print("  {}\n", conflict.sentence);
+    fmt::print("  {}\n", DiagnosisText(conflict, result));
   }
   const solver::SolveResult& solve = result.run.solve;
   const int frames = result.run.scene.num_frames();

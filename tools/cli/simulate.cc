@@ -5,7 +5,9 @@
 #include "io/settings_file.h"
 #include "tools/api/job.h"
 #include "tools/cli/commands.h"
+#include "tools/report/measured_scene.h"
 #include "tools/report/metrics_table.h"
+#include "tools/report/requirement_json.h"
 
 namespace retarget::cli {
 
@@ -37,7 +39,7 @@ int RunSimulate(const RetargetOptions& options) {
                                  {"metrics",
                                   {{"source", report::MetricsJson(subject, source.metrics())},
                                    {"baseline", report::MetricsJson(subject, metrics)}}},
-                                 {"requirements", report::ChecksJson(checks)}};
+                                 {"requirements", report::ChecksJson(checks, subject.body)}};
     fmt::print("{}\n", report.dump(1));
   } else {
     fmt::print("{}", report::MetricsTable(subject, source.metrics(), nullptr, metrics, checks,

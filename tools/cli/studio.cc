@@ -20,6 +20,7 @@ namespace {
 
 studio::StudioStart StartOf(const StudioOptions& options, studio::StudioLibrary* library) {
   studio::StudioStart start;
+  start.settings = SettingsOf(options.settings);
   start.has_template = !options.template_path.empty();
   start.posture = start.has_template ? studio::PostureOfLibrary(library, library->named_id())
                                      : studio::UnsavedPosture(posing::RestPosture(1.75, 1.75, 1));

@@ -13,7 +13,8 @@
 #include "tools/api/clip_posture.h"
 #include "tools/api/template_check.h"
 #include "tools/cli/commands.h"
-#include "tools/report/report.h"
+#include "tools/report/requirement_json.h"
+#include "tools/report/requirement_text.h"
 
 namespace retarget::cli {
 namespace {
@@ -52,14 +53,14 @@ struct Found {
   solver::TemplateTangles tangles;
 };
 
-Found FindIn(const std::string& path) {
+Found FindIn(const std::string& path, const TangleSettings& settings) {
   const std::string text = io::ReadFile(path);
   const size_t first = text.find_first_not_of(" \t\r\n");
   Found found;
   if (first == std::string::npos || text[first] != '{') {
     const TemplatePosture posture = io::ParseTemplate(text, path);
     found.body = posture.body;
-    found.tangles = solver::FindTemplateTangles(posture, {});
+    found.tangles = solver::FindTemplateTangles(posture, settings);
     return found;
   }
   report::Json json;
@@ -74,14 +75,15 @@ Found FindIn(const std::string& path) {
   const PosedBody a = PosedFromNodes(body, nodes[0]), b = PosedFromNodes(body, nodes[1]);
   const MatX table = SegmentGliTable(body, nodes[0], body, nodes[1]);
   found.tangles.literal = FindTangles(body, body, table);
-  found.tangles.tags = ReduceTangles(body, a, body, b, found.tangles.literal, table);
+  found.tangles.tags =
+      ReduceTangles(body, a, body, b, found.tangles.literal, table, solver::ReductionOf(settings));
   return found;
 }
 
 }  // namespace
 
-int RunTangles(const std::string& path, bool json) {
-  const Found found = FindIn(path);
+int RunTangles(const std::string& path, const SettingsOptions& settings, bool json) {
+  const Found found = FindIn(path, SettingsOf(settings).tangle);
   const Body &a = found.body[0], &b = found.body[1];
   if (json) {
     report::Json out = {{"literal", report::Json::array()}, {"tags", report::Json::array()}};
@@ -108,9 +110,9 @@ int RunTangles(const std::string& path, bool json) {
   return kDone;
 }
 
-int RunTemplateCheck(const std::string& path, bool json) {
+int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, bool json) {
   const TemplatePosture posture = io::ReadTemplate(path);
-  const api::TemplateCheck check = api::CheckTemplate(posture);
+  const api::TemplateCheck check = api::CheckTemplate(posture, SettingsOf(settings));
   const solver::TemplateTangles& tangles = check.tangles;
   const solver::Metrics& metrics = check.metrics;
   const std::vector<solver::RequirementCheck>& checks = check.checks;
@@ -120,7 +122,7 @@ int RunTemplateCheck(const std::string& path, bool json) {
   if (json) {
     report::Json out = {{"name", posture.name},
                         {"requirements_met", met},
-                        {"requirements", report::ChecksJson(checks)},
+                        {"requirements", report::ChecksJson(checks, bodies)},
                         {"tags", report::Json::array()},
                         {"warnings", warnings}};
     for (const Tag& tag : tangles.tags) {
@@ -150,8 +152,8 @@ int RunTemplateCheck(const std::string& path, bool json) {
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   for (const solver::RequirementCheck& c : checks) {
     if (!c.met)
-      fmt::print("MISSED {}: {:.4g} {}, required {:.4g} {}\n", c.name, c.value, c.unit, c.limit,
-                 c.where);
+      fmt::print("MISSED {}: {:.4g} {}, required {:.4g} {}\n", report::NameOf(c), c.value,
+                 report::UnitOf(c.kind), c.limit, report::WorstPlace(c, bodies));
   }
   return met ? kDone : kMissed;
 }

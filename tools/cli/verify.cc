@@ -9,13 +9,17 @@
 #include "io/files.h"
 #include "io/settings_file.h"
 #include "tools/cli/commands.h"
+#include "tools/report/measured_scene.h"
 #include "tools/report/metrics_table.h"
+#include "tools/report/requirement_json.h"
+#include "tools/report/subject_json.h"
 
 namespace retarget::cli {
 namespace {
 
-solver::RequirementCheck CheckWriteBack(const report::Json& written, const std::string& folder,
-                                        int f, const solver::MotionView& scene, const Body& body) {
+// Largest distance of the written rig to the scene (m), from the files.
+double WriteBackOf(const report::Json& written, const std::string& folder, int f,
+                   const solver::MotionView& scene, const Body& body) {
   const std::string file = written.at("file");
   io::ClipPath path;
   path.path = folder + "/" + file;
@@ -33,14 +37,7 @@ solver::RequirementCheck CheckWriteBack(const report::Json& written, const std::
     joints.push_back({body.FindNode(node), joint});
   }
   const std::string up = written.at("up");
-  const double error =
-      report::WriteBackError(motion, motion.rig, written.at("units"), up[0], joints, scene, f);
-  return {std::string("write-back ") + (f == 0 ? "a" : "b"),
-          error,
-          report::kWriteBackLimit,
-          "m",
-          error <= report::kWriteBackLimit,
-          file};
+  return report::WriteBackError(motion, motion.rig, written.at("units"), up[0], joints, scene, f);
 }
 
 void CheckFrames(const report::MeasuredScene& scene, const std::string& path, int frames) {
@@ -81,23 +78,27 @@ int RunVerify(const std::string& folder, bool json) {
   const solver::Metrics& metrics = scene.metrics();
   std::vector<solver::RequirementCheck> checks =
       solver::CheckRequirements(subject, metrics, settings.requirements);
+  std::array<double, 2> write_back_m;
+  std::array<std::string, 2> file;
   for (int f = 0; f < 2; ++f) {
-    const char* figure = report::kFigure[f];
     try {
-      checks.push_back(CheckWriteBack(report.at("write_back").at(figure), folder, f, scene.view(),
-                                      subject.body[f]));
+      const report::Json& written = report.at("write_back").at(report::kFigure[f]);
+      file[f] = written.at("file");
+      write_back_m[f] = WriteBackOf(written, folder, f, scene.view(), subject.body[f]);
     } catch (const nlohmann::json::exception& error) {
       throw InputError(report_path + ": " + error.what());
     }
-    const double length = metrics.figure[f].length_error_percent;
-    checks.push_back(
-        {std::string("segment lengths ") + figure, length, 0.5, "%", length <= 0.5, ""});
+  }
+  for (solver::RequirementCheck& check :
+       solver::CheckWritten(metrics, write_back_m, settings.requirements)) {
+    if (check.kind == solver::RequirementKind::kWriteBack) check.file = file[check.figure];
+    checks.push_back(check);
   }
   const bool all_met = solver::AllMet(checks);
   const solver::Metrics* baseline_metrics = baseline ? &baseline->metrics() : nullptr;
   if (json) {
     const report::Json out = {{"requirements_met", all_met},
-                              {"requirements", report::ChecksJson(checks)},
+                              {"requirements", report::ChecksJson(checks, subject.body)},
                               {"metrics", report::ThreeMetricsJson(subject, source.metrics(),
                                                                    baseline_metrics, metrics)}};
     fmt::print("{}\n", out.dump(1));

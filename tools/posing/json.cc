@@ -79,11 +79,8 @@ PoseStep ReadRoot(const Read& r) {
 PoseStep ReadTangles(const Read& r) {
   SetTangles tangles;
   for (const io::Fields& item : r.op.ObjectList("tangles", kMostTangles)) {
-    item.Only({"a", "b", "from", "to"});
-    TangleRequest request{r.PathOf(item, 0), r.PathOf(item, 1), std::nullopt, std::nullopt};
-    if (item.Has("from")) request.from_s = item.Number("from", 0, 1e6);
-    if (item.Has("to")) request.to_s = item.Number("to", request.from_s.value_or(0), 1e6);
-    tangles.tangles.push_back(request);
+    item.Only({"a", "b"});
+    tangles.tangles.push_back({r.PathOf(item, 0), r.PathOf(item, 1)});
   }
   return tangles;
 }

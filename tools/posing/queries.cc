@@ -13,6 +13,8 @@
 #include "solver/start/weak_tags.h"
 #include "tools/api/template_check.h"
 #include "tools/posing/state.h"
+#include "tools/report/requirement_json.h"
+#include "tools/report/requirement_text.h"
 
 namespace retarget::posing {
 namespace {
@@ -60,12 +62,13 @@ std::vector<Tag> KeptTags(const TemplatePosture& posture, const std::vector<Tag>
 }
 
 // Also what is found beside a posture's own list.
-std::vector<Tag> AllTags(const TemplatePosture& posture, const std::vector<Tag>& kept) {
+std::vector<Tag> AllTags(const TemplatePosture& posture, const std::vector<Tag>& kept,
+                         const TangleSettings& settings) {
   if (posture.tangles.empty()) return kept;
   TemplatePosture unlisted = posture;
   unlisted.tangles.clear();
   std::vector<Tag> all = kept;
-  for (const Tag& tag : solver::FindTemplateTangles(unlisted, Settings().tangle).tags) {
+  for (const Tag& tag : solver::FindTemplateTangles(unlisted, settings).tags) {
     if (!IsRequested(posture, tag)) all.push_back(tag);
   }
   return all;
@@ -138,8 +141,8 @@ std::vector<std::string> Warnings(const TemplatePosture& posture, const api::Tem
   std::vector<std::string> warnings = check.warnings;
   for (const solver::RequirementCheck& c : check.checks) {
     if (c.met) continue;
-    warnings.push_back(
-        fmt::format("{}: {:.4g} {}, required {:.4g}", c.name, c.value, c.unit, c.limit));
+    warnings.push_back(fmt::format("{}: {:.4g} {}, required {:.4g}", report::NameOf(c), c.value,
+                                   report::UnitOf(c.kind), c.limit));
   }
   AddOverlapWarnings(posture, overlaps, &warnings);
   return warnings;
@@ -179,8 +182,8 @@ std::vector<double> BeyondLimits(const TemplatePosture& posture, int figure, int
   return beyond;
 }
 
-std::vector<std::string> WarningsOf(const TemplatePosture& posture) {
-  return Warnings(posture, api::CheckTemplate(posture), OverlapsOf(posture));
+std::vector<std::string> WarningsOf(const TemplatePosture& posture, const Settings& settings) {
+  return Warnings(posture, api::CheckTemplate(posture, settings), OverlapsOf(posture));
 }
 
 std::vector<Tag> Remeasured(const std::vector<Tag>& tags, const TemplatePosture& posture) {
@@ -207,14 +210,15 @@ report::Json LiveQueriesJson(const TemplatePosture& posture, const std::vector<T
           {"warnings", warnings}};
 }
 
-report::Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags) {
-  const api::TemplateCheck check = api::CheckTemplate(posture);
-  const std::vector<Tag> all = AllTags(posture, check.tangles.tags);
+report::Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags,
+                         const Settings& settings) {
+  const api::TemplateCheck check = api::CheckTemplate(posture, settings);
+  const std::vector<Tag> all = AllTags(posture, check.tangles.tags, settings.tangle);
   if (tags) *tags = all;
   const std::vector<LimbOverlap> overlaps = OverlapsOf(posture);
   return {{"name", posture.name},
           {"requirements_met", check.met()},
-          {"requirements", report::ChecksJson(check.checks)},
+          {"requirements", report::ChecksJson(check.checks, posture.body)},
           {"tags", TagsJson(posture, all)},
           {"literal_tangles", check.tangles.literal.size()},
           {"overlaps", OverlapsJson(posture, overlaps)},

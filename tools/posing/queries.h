@@ -26,12 +26,13 @@ MatX GliTableOf(const TemplatePosture& posture);
 std::vector<double> BeyondLimits(const TemplatePosture& posture, int figure, int link);
 
 // The checks of `template --check`, and where bodies overlap by over 1 cm.
-std::vector<std::string> WarningsOf(const TemplatePosture& posture);
+std::vector<std::string> WarningsOf(const TemplatePosture& posture, const Settings& settings = {});
 
 // All of it: tags {a, b, gli, to_half, rho, group_size, requested, weak, can_slip}, those that the
 // posture lists first, then those that are found; literal_tangles, overlaps, requirements,
 // warnings, gli_table, beyond_limits_deg. `tags`, where given, receives all of them.
-report::Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags = nullptr);
+report::Json QueriesJson(const TemplatePosture& posture, std::vector<Tag>* tags = nullptr,
+                         const Settings& settings = {});
 
 // During a drag: tags, overlaps and warnings alone. Finding tags takes some 15 ms, so those that
 // were found before it are measured anew (0.1 ms); what is tangled newly shows at its end.

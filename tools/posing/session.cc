@@ -67,7 +67,8 @@ void AddPins(const PoseState& state, solver::PoseTask* task) {
   }
 }
 
-solver::PoseTask TaskOf(const PoseState& state, const std::array<Pose, 2>& before,
+solver::PoseTask TaskOf(const PoseState& state, const TangleSettings& settings,
+                        const std::array<Pose, 2>& before,
                         const std::vector<solver::NodeTarget>& drags,
                         const std::vector<solver::NodeRay>& rays) {
   solver::PoseTask task;
@@ -79,7 +80,6 @@ solver::PoseTask TaskOf(const PoseState& state, const std::array<Pose, 2>& befor
   if (state.options.tangles) {
     TemplatePosture posture = state.posture;
     posture.pose = before;
-    const TangleSettings settings;
     task.tangles = solver::HoldTangles(solver::FindTemplateTangles(posture, settings).tags, posture,
                                        settings.margin);
   }
@@ -104,7 +104,9 @@ solver::PoseSettings SettingsOf(const PoseOptions& options, int most_iterations,
 
 }  // namespace
 
-PoseSession::PoseSession(TemplatePosture posture) { state_.posture = std::move(posture); }
+PoseSession::PoseSession(TemplatePosture posture, const Settings& settings) : settings_(settings) {
+  state_.posture = std::move(posture);
+}
 
 void PoseSession::Remember(const std::string& what) {
   if (!joined_ || undo_.empty()) {
@@ -164,7 +166,7 @@ solver::PoseResult PoseSession::DragTo(const std::optional<solver::NodeTarget>& 
   if (target) targets_.push_back(*target);
   if (ray) rays_.push_back(*ray);
   const solver::PoseResult result =
-      solver::SolvePose(TaskOf(state_, before_, targets_, rays_), posture().pose,
+      solver::SolvePose(TaskOf(state_, settings_.tangle, before_, targets_, rays_), posture().pose,
                         SettingsOf(state_.options, most_iterations, most_seconds));
   state_.posture.pose = result.pose;
   for (PinnedNode& pin : state_.pins) {  // a pinned node that is dragged is pinned where it ends

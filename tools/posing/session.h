@@ -14,10 +14,12 @@ namespace retarget::posing {
 
 class PoseSession {
  public:
-  explicit PoseSession(TemplatePosture posture);
+  // `settings`: by which tags are found and what is required of them.
+  explicit PoseSession(TemplatePosture posture, const Settings& settings = {});
 
   const PoseState& state() const { return state_; }
   const TemplatePosture& posture() const { return state_.posture; }
+  const Settings& settings() const { return settings_; }
 
   // Does one operation; what the solver found where it was asked. Throws InputError and changes
   // nothing where the operation is not valid. `most_iterations` bounds the solver: about 12 for
@@ -58,6 +60,7 @@ class PoseSession {
   void Remember(const std::string& what);
   bool Walk(std::vector<Step>* from, std::vector<Step>* to);
 
+  Settings settings_;
   PoseState state_;
   std::vector<Step> undo_, redo_;
   bool joined_ = false;

@@ -4,30 +4,36 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "tools/report/html.h"
 #include "tools/report/json_reading.h"
+#include "tools/report/requirement_json.h"
 
 namespace retarget::report {
 namespace {
+
+using Kind = solver::RequirementKind;
 
 constexpr const char* kMotions[3] = {"source", "baseline", "result"};
 constexpr const char* kHeads[3] = {"source", "simulated", "result"};
 
 // A row of the metrics: what, unit, decimals, value of a motion's metrics, and the requirement that
-// limits it ("" for none; `at_least`: it is a lower bound).
+// limits it (nothing for none), of a figure where it is not -1.
 struct MetricRow {
   std::string label, unit;
   int digits;
   std::function<double(const Json& metrics)> value;
-  std::string requirement;
-  bool at_least = false;
+  std::optional<Kind> requirement = std::nullopt;
+  int figure = -1;
+  bool at_least() const { return requirement == Kind::kTangle; }
 };
 
 MetricRow Plain(const char* label, const char* unit, int digits, const std::string& pointer,
-                double scale, const std::string& requirement = "") {
-  return {label, unit, digits,
-          [pointer, scale](const Json& m) { return scale * NumberAt(m, pointer); }, requirement};
+                double scale, std::optional<Kind> requirement = {}, int figure = -1) {
+  return {label,       unit,
+          digits,      [pointer, scale](const Json& m) { return scale * NumberAt(m, pointer); },
+          requirement, figure};
 }
 
 double Larger(const Json& m, const char* one, const char* other, double sign) {
@@ -38,18 +44,18 @@ double Larger(const Json& m, const char* one, const char* other, double sign) {
 std::vector<MetricRow> MetricRows() {
   std::vector<MetricRow> rows = {
       {"tangles kept", "% of frames", 1,
-       [](const Json& m) { return NumberAt(m, "/tangle_kept_percent"); }, ""},
+       [](const Json& m) { return NumberAt(m, "/tangle_kept_percent"); }},
       {"smallest s GLI", "turns", 2,
        [](const Json& m) { return Larger(m, "/smallest_gli", "/smallest_gli_between_frames", -1); },
-       "tangle", true},
-      Plain("pass-throughs", "", 0, "/pass_throughs", 1, "pass-throughs"),
+       Kind::kTangle},
+      Plain("pass-throughs", "", 0, "/pass_throughs", 1, Kind::kPassThroughs),
       {"deepest penetration", "cm", 2,
        [](const Json& m) {
          return 100 * Larger(m, "/penetration_m", "/penetration_between_frames_m", 1);
        },
-       "penetration"},
+       Kind::kPenetration},
       Plain("penetration over 1 cm", "% of frames", 1, "/penetration_over_1cm_percent", 1,
-            "penetration over 1 cm"),
+            Kind::kPenetrationOver1cm),
       {"largest hold error", "cm", 2,
        [](const Json& m) {
          double largest = std::nan("");
@@ -58,19 +64,19 @@ std::vector<MetricRow> MetricRows() {
          }
          return largest;
        },
-       "hold"},
+       Kind::kHold},
   };
-  for (const std::string who : {"a", "b"}) {
+  for (int f = 0; f < 2; ++f) {
+    const std::string who = kFigure[f];
     const auto add = [&](const char* label, const char* unit, int digits, const char* key,
-                         double scale, const char* requirement = "") {
-      rows.push_back(Plain(label, unit, digits, "/" + who + "/" + key, scale,
-                           *requirement ? requirement + (" " + who) : ""));
+                         double scale, std::optional<Kind> requirement = {}) {
+      rows.push_back(Plain(label, unit, digits, "/" + who + "/" + key, scale, requirement, f));
       rows.back().label += " " + who;
     };
-    add("foot drift,", "cm", 2, "foot_drift_m", 100, "foot drift");
+    add("foot drift,", "cm", 2, "foot_drift_m", 100, Kind::kFootDrift);
     add("fastest planted foot,", "cm/s", 1, "foot_speed_max_m_s", 100);
     add("foot faster than 1 cm/s,", "% of stance", 1, "foot_speed_over_1cm_s_percent", 1);
-    add("below the floor,", "cm", 2, "floor_m", 100, "floor");
+    add("below the floor,", "cm", 2, "floor_m", 100, Kind::kFloor);
     add("self-penetration,", "cm", 2, "self_penetration_m", 100);
     add("pose error,", "cm", 2, "pose_error_cm", 1);
     add("joint edit,", "degrees", 2, "joint_edit_deg", 1);
@@ -79,18 +85,17 @@ std::vector<MetricRow> MetricRows() {
   return rows;
 }
 
-// The strictest limit of the requirements of that name or of "name k"; NaN for none. Lengths in cm.
-double Limit(const Json& report, const std::string& name) {
-  if (name.empty()) return std::nan("");
-  for (const Json& check : At(report, "/requirements")) {
-    const std::string key = check.value("name", "");
-    const bool numbered = key.rfind(name + " ", 0) == 0 &&
-                          key.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
-    if (key != name && !numbered) continue;
-    return NumberAt(check, "/limit") * (check.value("unit", "") == "m" ? 100 : 1);
+// The limit that a report sets; NaN for none. Lengths in cm.
+double Limit(const Json& report, std::optional<Kind> kind, int figure = -1) {
+  if (!kind) return std::nan("");
+  for (const ReadRequirement& r : RequirementsOf(report)) {
+    if (!r.Is(*kind) || (figure >= 0 && r.figure != figure)) continue;
+    return r.limit * (r.unit == "m" ? 100 : 1);
   }
   return std::nan("");
 }
+
+std::string FrameHtml(int frame) { return WithFrame(fmt::format("frame {}", frame), frame); }
 
 Cell Judged(double value, int digits, bool bad) {
   return {Decimal(value, digits) + (bad ? " ✕" : ""), bad ? "number bad" : "number"};
@@ -106,17 +111,17 @@ std::string MetricsTableHtml(const Json& report) {
                    {"allowed", "number"},
                    {""}});
   for (const MetricRow& row : MetricRows()) {
-    const double limit = Limit(report, row.requirement);
+    const double limit = Limit(report, row.requirement, row.figure);
     std::vector<Cell> cells = {{row.label}};
     bool known = false;
     for (const char* motion : kMotions) {
       const double value = row.value(At(report, std::string("/metrics/") + motion));
       known = known || !std::isnan(value);
-      cells.push_back(Judged(value, row.digits, row.at_least ? value <= limit : value > limit));
+      cells.push_back(Judged(value, row.digits, row.at_least() ? value <= limit : value > limit));
     }
     if (!known) continue;
     cells.push_back(
-        {std::isnan(limit) ? "" : (row.at_least ? "> " : "") + Decimal(limit, row.digits),
+        {std::isnan(limit) ? "" : (row.at_least() ? "> " : "") + Decimal(limit, row.digits),
          "number unit"});
     cells.push_back({row.unit, "unit"});
     table.Row(cells);
@@ -138,7 +143,7 @@ std::string TagsTableHtml(const Json& report) {
                    {"result", "number"},
                    {"tightest"}});
   const Json& tags = At(report, "/tangles");
-  const double limit = Limit(report, "tangle");
+  const double limit = Limit(report, Kind::kTangle);
   for (size_t k = 0; k < tags.size(); ++k) {
     const auto path = [&](const char* figure) {
       const std::string at = std::string("/") + figure;
@@ -163,7 +168,7 @@ std::string TagsTableHtml(const Json& report) {
       cells.push_back(Judged(lost, 0, lost > 0));
     }
     const double worst = of("result", "worst_frame");
-    cells.push_back({std::isnan(worst) ? "" : WithFrames(fmt::format("frame {:.0f}", worst))});
+    cells.push_back({std::isnan(worst) ? "" : FrameHtml(static_cast<int>(worst))});
     table.Row(cells, fmt::format("data-tag=\"{}\"", k));
   }
   return table.empty() ? "" : table.Html();
@@ -177,7 +182,7 @@ std::string HoldsTableHtml(const Json& report) {
                    {"result", "number"},
                    {"worst"}});
   const Json& holds = At(report, "/holds");
-  const double limit = Limit(report, "hold");
+  const double limit = Limit(report, Kind::kHold);
   const auto point = [](const Json& p) {
     const std::string figure = TextAt(p, "/figure");
     return figure == "world" ? "the world" : figure + " " + Words(TextAt(p, "/node"));
@@ -191,7 +196,7 @@ std::string HoldsTableHtml(const Json& report) {
       const double value = 100 * NumberAt(report, fmt::format("/metrics/{}/hold_m/{}", motion, k));
       cells.push_back(Judged(value, 2, value > limit));
     }
-    cells.push_back({WithFrames(fmt::format("frame {}", holds[k].value("frame", 0)))});
+    cells.push_back({FrameHtml(holds[k].value("frame", 0))});
     table.Row(cells);
   }
   return table.empty() ? "" : table.Html();

@@ -8,7 +8,9 @@
 
 #include "io/render/render.h"
 #include "io/scene/scene_glb.h"
+#include "tools/report/measured_scene.h"
 #include "tools/report/report.h"
+#include "tools/report/subject_json.h"
 
 namespace retarget::report {
 namespace {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <regex>
 
 namespace retarget::report {
 
@@ -39,9 +39,16 @@ std::string Words(std::string name) {
   return name;
 }
 
-std::string WithFrames(const std::string& text) {
-  static const std::regex kFrame("frame ([0-9]+)");
-  return std::regex_replace(EscapeHtml(text), kFrame, "<span data-frame=\"$1\">$&</span>");
+std::string WithFrame(const std::string& text, int frame) {
+  std::string html = EscapeHtml(text);
+  if (frame < 0) return html;
+  const std::string words = fmt::format("frame {}", frame);
+  const size_t at = html.find(words), end = at + words.size();
+  const bool whole = at != std::string::npos &&
+                     (end == html.size() || !std::isdigit(static_cast<unsigned char>(html[end])));
+  if (!whole) return html;
+  return html.replace(at, words.size(),
+                      fmt::format("<span data-frame=\"{}\">{}</span>", frame, words));
 }
 
 std::string Decimal(double value, int digits) {

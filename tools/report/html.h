@@ -12,8 +12,9 @@ std::string EscapeHtml(const std::string& text);
 // left_hand -> left hand.
 std::string Words(std::string name);
 
-// Escaped; "frame 12" becomes a span with data-frame="12", which the page turns into a jump.
-std::string WithFrames(const std::string& text);
+// Escaped; of a frame that the text names ("frame 12"), the words become a span with
+// data-frame="12", which the page turns into a jump. -1: none.
+std::string WithFrame(const std::string& text, int frame);
 
 // A number with `digits` decimals; an en dash where there is none (NaN).
 std::string Decimal(double value, int digits);

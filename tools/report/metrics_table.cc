@@ -5,76 +5,76 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/report/requirement_text.h"
+
 namespace retarget::report {
 namespace {
+
+using Kind = solver::RequirementKind;
 
 double Number(const Json& metrics, const char* key) { return metrics.at(key).get<double>(); }
 
 std::vector<MetricRow> PairRows() {
-  return {{"tangles kept", "% of frames", "", 1,
+  return {{"tangles kept",
+           "% of frames",
+           {},
+           -1,
+           1,
            [](const Json& m) { return Number(m, "tangle_kept_percent"); }},
-          {"smallest s GLI, also between frames", "turns", "tangle", 1,
+          {"smallest s GLI, also between frames", "turns", Kind::kTangle, -1, 1,
            [](const Json& m) {
              return std::min(Number(m, "smallest_gli"), Number(m, "smallest_gli_between_frames"));
            }},
-          {"pass-throughs", "", "pass-throughs", 1,
+          {"pass-throughs", "", Kind::kPassThroughs, -1, 1,
            [](const Json& m) { return Number(m, "pass_throughs"); }},
-          {"deepest penetration", "cm", "penetration", 100,
+          {"deepest penetration", "cm", Kind::kPenetration, -1, 100,
            [](const Json& m) {
              return 100 *
                     std::max(Number(m, "penetration_m"), Number(m, "penetration_between_frames_m"));
            }},
-          {"penetration over 1 cm", "% of frames", "penetration over 1 cm", 1,
+          {"penetration over 1 cm", "% of frames", Kind::kPenetrationOver1cm, -1, 1,
            [](const Json& m) { return Number(m, "penetration_over_1cm_percent"); }},
-          {"hold error", "cm", "hold", 100, [](const Json& m) {
+          {"hold error", "cm", Kind::kHold, -1, 100, [](const Json& m) {
              const std::vector<double> holds = m.at("hold_m");
              return holds.empty() ? std::nan("")
                                   : 100 * *std::max_element(holds.begin(), holds.end());
            }}};
 }
 
-void AddFigureRows(const std::string& figure, std::vector<MetricRow>* rows) {
-  const auto add = [&](const char* name, const char* unit, const char* requirement, double scale,
-                       const char* key) {
-    rows->push_back(
-        {std::string(name) + " " + figure, unit,
-         *requirement ? std::string(requirement) + " " + figure : "", scale,
-         [figure, scale, key](const Json& m) { return scale * Number(m.at(figure), key); }});
+void AddFigureRows(int figure, std::vector<MetricRow>* rows) {
+  const char* who = kFigure[figure];
+  const auto add = [&](const char* name, const char* unit, std::optional<Kind> requirement,
+                       double scale, const char* key) {
+    rows->push_back({fmt::format("{} {}", name, who), unit, requirement, figure, scale,
+                     [who, scale, key](const Json& m) { return scale * Number(m.at(who), key); }});
   };
-  add("foot drift", "cm", "foot drift", 100, "foot_drift_m");
-  add("foot speed over 1 cm/s", "% of stance", "", 1, "foot_speed_over_1cm_s_percent");
-  add("below the floor", "cm", "floor", 100, "floor_m");
-  add("self-penetration", "cm", "", 100, "self_penetration_m");
-  add("pose error", "cm", "", 1, "pose_error_cm");
-  add("joint edit", "deg", "", 1, "joint_edit_deg");
-  add("jerk, to the larger source", "x", "", 1, "jerk_ratio_larger");
-}
-
-// "hold" answers to "hold 1" and so on, "penetration" not to "penetration over 1 cm".
-bool AnswersTo(const std::string& requirement, const std::string& check) {
-  if (requirement.empty() || check.rfind(requirement, 0) != 0) return false;
-  return check.size() == requirement.size() ||
-         (check.size() > requirement.size() + 1 && check[requirement.size()] == ' ' &&
-          std::isdigit(static_cast<unsigned char>(check[requirement.size() + 1])));
+  add("foot drift", "cm", Kind::kFootDrift, 100, "foot_drift_m");
+  add("foot speed over 1 cm/s", "% of stance", {}, 1, "foot_speed_over_1cm_s_percent");
+  add("below the floor", "cm", Kind::kFloor, 100, "floor_m");
+  add("self-penetration", "cm", {}, 100, "self_penetration_m");
+  add("pose error", "cm", {}, 1, "pose_error_cm");
+  add("joint edit", "deg", {}, 1, "joint_edit_deg");
+  add("jerk, to the larger source", "x", {}, 1, "jerk_ratio_larger");
 }
 
 bool Misses(const MetricRow& row, double value, double limit) {
-  return row.requirement == "tangle" ? value <= limit : value > limit;
+  return row.requirement == Kind::kTangle ? value <= limit : value > limit;
 }
 
 }  // namespace
 
 std::vector<MetricRow> MetricRows() {
   std::vector<MetricRow> rows = PairRows();
-  for (const char* figure : kFigure) AddFigureRows(figure, &rows);
+  for (int f = 0; f < 2; ++f) AddFigureRows(f, &rows);
   return rows;
 }
 
 Json LimitOf(const MetricRow& row, const Json& requirements) {
+  if (!row.requirement) return nullptr;
   for (const Json& check : requirements) {
-    if (AnswersTo(row.requirement, check.at("name"))) {
-      return row.scale * check.at("limit").get<double>();
-    }
+    const ReadRequirement read = RequirementFromJson(check);
+    if (!read.Is(*row.requirement) || (row.figure >= 0 && read.figure != row.figure)) continue;
+    return row.scale * check.at("limit").get<double>();
   }
   return nullptr;
 }
@@ -88,14 +88,15 @@ std::string MetricCell(const MetricRow& row, const Json& metrics, const Json& li
 
 std::string RequiredCell(const MetricRow& row, const Json& limit) {
   if (limit.is_null()) return "";
-  return fmt::format("{}{:.2f}", row.requirement == "tangle" ? "> " : "<= ", limit.get<double>());
+  return fmt::format("{}{:.2f}",
+                     row.requirement == Kind::kTangle ? "> " : "<= ", limit.get<double>());
 }
 
 std::string MetricsTable(const solver::MeasureSubject& subject, const solver::Metrics& source,
                          const solver::Metrics* baseline, const solver::Metrics& result,
                          const std::vector<solver::RequirementCheck>& checks,
                          const char* last_column) {
-  const Json requirements = ChecksJson(checks);
+  const Json requirements = ChecksJson(checks, subject.body);
   std::vector<std::pair<const char*, Json>> columns = {{"source", MetricsJson(subject, source)}};
   if (baseline) columns.emplace_back("baseline", MetricsJson(subject, *baseline));
   columns.emplace_back(last_column, MetricsJson(subject, result));
@@ -122,8 +123,9 @@ std::string MetricsTable(const solver::MeasureSubject& subject, const solver::Me
   }
   for (const solver::RequirementCheck& c : checks) {
     if (c.met) continue;
-    out += fmt::format("MISSED {}: {:.4g} {}, required {:.4g}{}{}\n", c.name, c.value, c.unit,
-                       c.limit, c.where.empty() ? "" : " at ", c.where);
+    const std::string where = WorstPlace(c, subject.body);
+    out += fmt::format("MISSED {}: {:.4g} {}, required {:.4g}{}{}\n", NameOf(c), c.value,
+                       UnitOf(c.kind), c.limit, where.empty() ? "" : " at ", where);
   }
   return out;
 }

@@ -2,19 +2,21 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/report/report.h"
+#include "tools/report/requirement_json.h"
 
 namespace retarget::report {
 
 // One line: what it is called, and how it is read from the metrics of report.json.
 struct MetricRow {
   std::string name, unit;
-  std::string requirement;  // the checks it answers to ("hold" for "hold 1", ...); empty: none
-  double scale = 1;         // from the requirement's unit to this row's
-  std::function<double(const Json& metrics)> value;  // NaN: nothing to measure
+  std::optional<solver::RequirementKind> requirement;  // the checks it answers to; nothing: none
+  int figure = -1;                                     // of the figure's checks; -1: of all
+  double scale = 1;                                    // from the requirement's unit to this row's
+  std::function<double(const Json& metrics)> value;    // NaN: nothing to measure
 };
 std::vector<MetricRow> MetricRows();
 

@@ -7,6 +7,7 @@
 #include "tools/report/html.h"
 #include "tools/report/json_reading.h"
 #include "tools/report/page.h"
+#include "tools/report/requirement_json.h"
 #include "tools/report/svg_plot.h"
 #include "tools/report/tables.h"
 
@@ -49,13 +50,6 @@ std::string PlotOf(const Json& series, const std::string& title, const std::stri
   return FormatSvg(plot);
 }
 
-double LimitOf(const Json& report, const std::string& name, double scale) {
-  for (const Json& check : At(report, "/requirements")) {
-    if (check.value("name", "").rfind(name, 0) == 0) return scale * NumberAt(check, "/limit");
-  }
-  return std::nan("");
-}
-
 std::string CostPlot(const Json& report) {
   SvgPlot plot{
       "Cost", "per iteration, logarithmic", {{"total", "var(--ink)", "", {}}}, 1, std::nan(""),
@@ -67,11 +61,16 @@ std::string CostPlot(const Json& report) {
 }
 
 std::string PlotsHtml(const Json& report, const Json& series) {
+  using Kind = solver::RequirementKind;
+  const std::vector<ReadRequirement> requirements = RequirementsOf(report);
+  const auto limit = [&](Kind kind, double scale, int item = -1) {
+    return scale * LimitOf(requirements, kind, -1, item);
+  };
   std::string out;
   const size_t tags = At(series, "/result/tangles").size();
   for (size_t k = 0; k < tags; ++k) {
     out += PlotOf(series, fmt::format("Tag {}: s GLI", k + 1), "turns, by frame",
-                  LimitOf(report, fmt::format("tangle {}", k + 1), 1),
+                  limit(Kind::kTangle, 1, static_cast<int>(k)),
                   [k](const Json& m) { return Numbers(At(m, fmt::format("/tangles/{}", k))); });
   }
   const auto both = [](const char* key) {
@@ -81,22 +80,21 @@ std::string PlotsHtml(const Json& report, const Json& series) {
     };
   };
   out += PlotOf(series, "Penetration between the bodies", "cm, by frame",
-                LimitOf(report, "penetration", 100),
+                limit(Kind::kPenetration, 100),
                 [](const Json& m) { return Numbers(At(m, "/penetration_cm")); });
   if (!At(series, "/result/hold_cm").empty()) {
-    out += PlotOf(series, "Hold error", "cm, by frame", LimitOf(report, "hold", 100),
-                  [](const Json& m) {
-                    std::vector<double> largest;
-                    for (const Json& hold : At(m, "/hold_cm")) {
-                      largest = Larger(largest, Numbers(hold));
-                    }
-                    return largest;
-                  });
+    out += PlotOf(series, "Hold error", "cm, by frame", limit(Kind::kHold, 100), [](const Json& m) {
+      std::vector<double> largest;
+      for (const Json& hold : At(m, "/hold_cm")) {
+        largest = Larger(largest, Numbers(hold));
+      }
+      return largest;
+    });
   }
   out += PlotOf(series, "Speed of planted feet", "cm/s, larger of a and b, by frame", std::nan(""),
                 both("foot_speed_cm_s"));
-  out += PlotOf(series, "Below the floor", "cm, by frame", LimitOf(report, "floor", 100),
-                both("floor_cm"));
+  out +=
+      PlotOf(series, "Below the floor", "cm, by frame", limit(Kind::kFloor, 100), both("floor_cm"));
   out += PlotOf(series, "Penetration of a body with itself", "cm, by frame", std::nan(""),
                 both("self_penetration_cm"));
   return out + CostPlot(report);

@@ -7,6 +7,7 @@
 #include "tools/report/comparison_tables.h"
 #include "tools/report/html.h"
 #include "tools/report/json_reading.h"
+#include "tools/report/requirement_json.h"
 #include "tools/report/verdict.h"
 
 namespace retarget::report {
@@ -22,18 +23,16 @@ std::string Card(const std::string& title, const std::string& body, const std::s
 std::string RequirementsHtml(const Json& report) {
   HtmlTable table(
       {{"requirement"}, {""}, {"value", "number"}, {"limit", "number"}, {"worst place"}});
-  for (const Json& check : At(report, "/requirements")) {
-    const bool met = check.value("met", true);
-    const std::string unit = check.value("unit", "");
-    const double scale = unit == "m" ? 100 : 1;
-    const std::string shown = unit == "m" ? " cm" : unit.rfind('%', 0) == 0 ? " %" : "";
-    const int digits = unit.empty() ? 0 : 2;
-    table.Row({{EscapeHtml(check.value("name", ""))},
-               met ? Cell{"✓ met", "good"} : Cell{"✕ missed", "bad"},
-               {Decimal(scale * NumberAt(check, "/value"), digits) + shown, "number"},
-               {Decimal(scale * NumberAt(check, "/limit"), digits) + shown, "number unit"},
-               {WithFrames(Words(check.value("where", "")))}},
-              met ? "" : "class=\"missed\"");
+  for (const ReadRequirement& r : RequirementsOf(report)) {
+    const double scale = r.unit == "m" ? 100 : 1;
+    const std::string shown = r.unit == "m" ? " cm" : r.unit.rfind('%', 0) == 0 ? " %" : "";
+    const int digits = r.unit.empty() ? 0 : 2;
+    table.Row({{EscapeHtml(r.name)},
+               r.met ? Cell{"✓ met", "good"} : Cell{"✕ missed", "bad"},
+               {Decimal(scale * r.value, digits) + shown, "number"},
+               {Decimal(scale * r.limit, digits) + shown, "number unit"},
+               {WithFrame(Words(r.where), r.frame)}},
+              r.met ? "" : "class=\"missed\"");
   }
   return table.empty() ? "" : table.Html();
 }
@@ -75,13 +74,18 @@ std::string TermsHtml(const Json& report) {
   return table.empty() ? "" : table.Html();
 }
 
-std::string ListHtml(const Json& sentences, const char* key = nullptr) {
+std::string ListHtml(const Json& sentences) {
   std::string out;
   for (const Json& item : sentences) {
-    const std::string text = key                ? TextAt(item, key)
-                             : item.is_string() ? item.get<std::string>()
-                                                : "";
-    if (!text.empty()) out += "<li>" + WithFrames(text) + "</li>";
+    if (item.is_string()) out += "<li>" + EscapeHtml(item.get<std::string>()) + "</li>";
+  }
+  return out.empty() ? "" : "<ul>" + out + "</ul>";
+}
+
+std::string ConflictsHtml(const Json& report) {
+  std::string out;
+  for (const Sentence& sentence : VerdictOf(report).why) {
+    out += "<li>" + WithFrame(sentence.text, sentence.frame) + "</li>";
   }
   return out.empty() ? "" : "<ul>" + out + "</ul>";
 }
@@ -177,12 +181,13 @@ std::string SettingsHtml(const Json& report) {
 }
 
 // A term and its sentences, at most `most`; then how many more there are.
-std::string Definition(const std::string& term, const std::vector<std::string>& sentences,
-                       size_t most, const char* kind = "") {
+std::string Definition(const std::string& term, const std::vector<Sentence>& sentences, size_t most,
+                       const char* kind = "") {
   if (sentences.empty()) return "";
   std::string out = "<dt>" + term + "</dt>";
   for (size_t k = 0; k < std::min(most, sentences.size()); ++k) {
-    out += fmt::format("<dd class=\"{}\">{}</dd>", kind, WithFrames(sentences[k]));
+    out += fmt::format("<dd class=\"{}\">{}</dd>", kind,
+                       WithFrame(sentences[k].text, sentences[k].frame));
   }
   if (sentences.size() > most) {
     out += fmt::format("<dd class=\"more\">and {} more, under Requirements</dd>",
@@ -196,8 +201,8 @@ std::string Definition(const std::string& term, const std::vector<std::string>& 
 std::string VerdictHtml(const Json& report) {
   constexpr size_t kAll = 100;
   const Verdict verdict = VerdictOf(report);
-  std::vector<std::string> asked = verdict.asked;
-  for (size_t k = 2; k < asked.size(); ++k) asked[1] += " " + asked[k];  // the tags in one line
+  std::vector<Sentence> asked = verdict.asked;
+  for (size_t k = 2; k < asked.size(); ++k) asked[1].text += " " + asked[k].text;  // in one line
   asked.resize(std::min<size_t>(2, asked.size()));
   const std::string left = Definition("Asked", asked, kAll) +
                            Definition("Missed", verdict.missed, 3, "bad") +
@@ -218,8 +223,7 @@ std::string TablesHtml(const Json& report) {
               "A tag is a pair of paths along the limbs that must stay wound round each other. "
               "s GLI says how far they are, in turns: above one half they are tangled.",
               true);
-  out += Card("Why requirements are missed", ListHtml(At(report, "/conflicts"), "/sentence"), "",
-              true);
+  out += Card("Why requirements are missed", ConflictsHtml(report), "", true);
   out += "<div class=\"column\">" + Card("Requirements", RequirementsHtml(report)) +
          Card("Holds", HoldsTableHtml(report)) +
          Card("Warnings", ListHtml(At(report, "/warnings"))) + "</div>\n";

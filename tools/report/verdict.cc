@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <regex>
 
 #include "tools/report/html.h"
 #include "tools/report/json_reading.h"
+#include "tools/report/requirement_json.h"
 
 namespace retarget::report {
 namespace {
@@ -16,6 +16,12 @@ namespace fs = std::filesystem;
 
 std::string Count(int64_t n, const std::string& one, const std::string& many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+// -1 where there is no number.
+int FrameAt(const Json& json, const std::string& pointer) {
+  const Json& frame = At(json, pointer);
+  return frame.is_number_integer() ? frame.get<int>() : -1;
 }
 
 std::string FileName(const Json& report, const std::string& pointer) {
@@ -31,7 +37,7 @@ std::string HoldName(const Json& report) {
   return Words(plain ? path.parent_path().filename().string() : path.stem().string());
 }
 
-std::vector<std::string> Asked(const Json& report) {
+std::vector<Sentence> Asked(const Json& report) {
   const int frames = report.value("frames", 0);
   const double seconds = frames / std::max(1e-9, report.value("fps", 30.0));
   const std::string a = FileName(report, "/inputs/clip_a/file");
@@ -39,17 +45,18 @@ std::vector<std::string> Asked(const Json& report) {
   const size_t tangles = At(report, "/tangles").size(), holds = At(report, "/holds").size();
   std::string kept = Count(static_cast<int64_t>(tangles), "tangle", "tangles");
   if (holds > 0) kept += " and " + Count(static_cast<int64_t>(holds), "held point", "held points");
-  std::vector<std::string> asked = {
-      fmt::format("a ({}) and b ({}), each captured alone, joined in the hold \"{}\" for {} "
-                  "({:.1f} s): {} must "
-                  "stay, the bodies must not overlap, planted feet must stand still.",
-                  a, b, HoldName(report), Count(frames, "frame", "frames"), seconds, kept)};
+  std::vector<Sentence> asked = {
+      {fmt::format("a ({}) and b ({}), each captured alone, joined in the hold \"{}\" for {} "
+                   "({:.1f} s): {} must "
+                   "stay, the bodies must not overlap, planted feet must stand still.",
+                   a, b, HoldName(report), Count(frames, "frame", "frames"), seconds, kept),
+       -1}};
   for (size_t k = 0; k < tangles; ++k) {
     const auto node = [&](const char* figure, int end) {
       return Words(TextAt(report, fmt::format("/tangles/{}/{}/{}", k, figure, end)));
     };
-    asked.push_back(fmt::format("Tag {}: a from {} to {}, tangled with b from {} to {}.", k + 1,
-                                node("a", 0), node("a", 1), node("b", 0), node("b", 1)));
+    asked.push_back({fmt::format("Tag {}: a from {} to {}, tangled with b from {} to {}.", k + 1,
+                                 node("a", 0), node("a", 1), node("b", 0), node("b", 1))});
   }
   return asked;
 }
@@ -78,42 +85,50 @@ std::string Outcome(const Json& report, size_t missed, size_t all) {
   return fmt::format("{}{} {}", hold, lost > 0 ? ";" : ", but", rest);
 }
 
-// One line for a requirement that is missed.
-std::string Missed(const Json& check) {
-  const std::string name = check.value("name", ""), unit = check.value("unit", "");
-  const std::string who = name.substr(name.find_last_of(' ') + 1);
-  const double scale = unit == "m" ? 100 : 1;
-  const double value = scale * NumberAt(check, "/value"), limit = scale * NumberAt(check, "/limit");
-  const std::string shown = unit == "m" ? "cm" : unit;
-  const auto starts = [&](const char* with) { return name.rfind(with, 0) == 0; };
+// What is missed, and by how much.
+std::string MissedBy(const ReadRequirement& r) {
+  using Kind = solver::RequirementKind;
+  const double scale = r.unit == "m" ? 100 : 1;
+  const double value = scale * r.value, limit = scale * r.limit;
+  const std::string shown = r.unit == "m" ? "cm" : r.unit;
   const std::string allowed = fmt::format("{:.1f} {}, {:.1f} allowed", value, shown, limit);
-  std::string line;
-  if (starts("tangle")) {
-    line = fmt::format("Tag {} comes loose: s GLI falls to {:.2f} and must stay above {:.2f}", who,
-                       value, limit);
-  } else if (starts("pass-throughs")) {
-    line = fmt::format("A limb passes through a limb {:.0f} times", value);
-    if (value == 1) line = "A limb passes through a limb once";
-  } else if (starts("penetration over 1 cm")) {
-    line = fmt::format("The bodies overlap by more than 1 cm in {}", allowed);
-  } else if (starts("penetration")) {
-    line = "The bodies overlap by " + allowed;
-  } else if (starts("foot drift")) {
-    line = fmt::format("A planted foot of {} drifts by {}", who, allowed);
-  } else if (starts("floor")) {
-    line = fmt::format("{} goes below the floor by {}", who, allowed);
-  } else if (starts("hold")) {
-    line = fmt::format("Hold {} opens by {}", who, allowed);
-  } else if (starts("write-back")) {
-    line = fmt::format("The written rig of {} departs from the scene by {:.2f} {}, {:.2f} allowed",
-                       who, value, shown, limit);
-  } else {
-    line = fmt::format("{}: {:.4g} {}, {:.4g} allowed", name, value, shown, limit);
+  const std::string who = r.figure < 0 ? "" : kFigure[r.figure];
+  if (!r.kind) return fmt::format("{}: {:.4g} {}, {:.4g} allowed", r.name, value, shown, limit);
+  switch (*r.kind) {
+    case Kind::kTangle:
+      return fmt::format("Tag {} comes loose: s GLI falls to {:.2f} and must stay above {:.2f}",
+                         r.item + 1, value, limit);
+    case Kind::kPassThroughs:
+      return value == 1 ? "A limb passes through a limb once"
+                        : fmt::format("A limb passes through a limb {:.0f} times", value);
+    case Kind::kPenetrationOver1cm:
+      return "The bodies overlap by more than 1 cm in " + allowed;
+    case Kind::kPenetration:
+      return "The bodies overlap by " + allowed;
+    case Kind::kFootDrift:
+      return fmt::format("A planted foot of {} drifts by {}", who, allowed);
+    case Kind::kFloor:
+      return fmt::format("{} goes below the floor by {}", who, allowed);
+    case Kind::kHold:
+      return fmt::format("Hold {} opens by {}", r.item + 1, allowed);
+    case Kind::kSegmentLength:
+      return fmt::format("A segment of {} changes its length by {:.2f} %, {:.2f} allowed", who,
+                         value, limit);
+    case Kind::kWriteBack:
+      return fmt::format(
+          "The written rig of {} departs from the scene by {:.2f} {}, {:.2f} allowed", who, value,
+          shown, limit);
   }
-  std::string where = Words(check.value("where", ""));
-  const int frame = FrameNamedIn(where);
-  if (starts("tangle") && frame >= 0) where = fmt::format("frame {}", frame);  // the tag is named
-  return line + (where.empty() ? "" : " (" + where + ")") + ".";
+  return "";
+}
+
+// One line for a requirement that is missed.
+Sentence Missed(const ReadRequirement& r) {
+  std::string where = Words(r.where);
+  if (r.Is(solver::RequirementKind::kTangle) && r.frame >= 0) {
+    where = fmt::format("frame {}", r.frame);  // the tag is named
+  }
+  return {MissedBy(r) + (where.empty() ? "" : " (" + where + ")") + ".", r.frame};
 }
 
 std::string Blemishes(const Json& report, const std::string& motion) {
@@ -126,20 +141,21 @@ std::string Blemishes(const Json& report, const std::string& motion) {
   return out;
 }
 
-std::vector<std::string> Compared(const Json& report) {
-  std::vector<std::string> out;
+std::vector<Sentence> Compared(const Json& report) {
+  std::vector<Sentence> out;
   const int frames = report.value("frames", 0);
   const auto of_all = [&](int64_t n) { return fmt::format("{} of {} frames", n, frames); };
   if (!At(report, "/metrics/source").is_null()) {
     const int64_t lost = FramesLost(report, "source");
-    out.push_back(fmt::format(
+    out.push_back({fmt::format(
         "Laid together without editing, the clips {}{}.",
         HasTags(report) ? "are tangled in " + of_all(frames - lost) + ", with " : "have ",
-        Blemishes(report, "source")));
+        Blemishes(report, "source"))});
   }
   const std::string message = TextAt(report, "/simulation/message");
   if (At(report, "/metrics/baseline").is_null()) {
-    out.push_back(message.empty() ? "There is no simulated run to compare with." : message);
+    out.push_back(message.empty() ? Sentence{"There is no simulated run to compare with."}
+                                  : Sentence{message, FrameAt(report, "/simulation/frame")});
     return out;
   }
   const int64_t lost = FramesLost(report, "baseline"), ours = FramesLost(report, "result");
@@ -152,74 +168,70 @@ std::vector<std::string> Compared(const Json& report) {
       line += ours > 0 ? fmt::format("; the solve loses it in {}", ours)
                        : "; the solve keeps it in all";
   }
-  out.push_back(line + ".");
+  out.push_back({line + "."});
   return out;
 }
 
-std::vector<std::string> Why(const Json& report) {
-  std::vector<std::string> why;
+std::vector<Sentence> Why(const Json& report) {
+  std::vector<Sentence> why;
   for (const Json& conflict : At(report, "/conflicts")) {
     const std::string sentence = TextAt(conflict, "/sentence");
-    if (!sentence.empty()) why.push_back(sentence);
+    if (!sentence.empty()) why.push_back({sentence, FrameAt(conflict, "/frame")});
   }
   return why;
 }
 
-std::vector<std::string> Stopped(const Json& report) {
-  std::vector<std::string> stopped;
+std::vector<Sentence> Stopped(const Json& report) {
+  std::vector<Sentence> stopped;
   const std::string status = TextAt(report, "/solve/status");
   if (!status.empty() && status != "converged") {
     stopped.push_back(
-        fmt::format("The solver stopped early ({}); this is the best result so far.", status));
+        {fmt::format("The solver stopped early ({}); this is the best result so far.", status)});
   }
   if (TextAt(report, "/start/requested") == "simulated" &&
       TextAt(report, "/start/used") == "template") {
     const std::string reason = TextAt(report, "/start/reason");
-    if (!reason.empty()) stopped.push_back(reason);
+    if (!reason.empty()) stopped.push_back({reason, FrameAt(report, "/simulation/frame")});
   }
   return stopped;
 }
 
-std::vector<std::string> Look(const Json& report, const std::vector<std::string>& missed) {
-  std::vector<std::string> look;
-  for (const std::string& line : missed) {
-    if (FrameNamedIn(line) < 0) continue;
-    look.push_back(fmt::format("Look at frame {} first.", FrameNamedIn(line)));
+std::vector<Sentence> Look(const Json& report, const std::vector<Sentence>& missed) {
+  std::vector<Sentence> look;
+  for (const Sentence& line : missed) {
+    if (line.frame < 0) continue;
+    look.push_back({fmt::format("Look at frame {} first.", line.frame), line.frame});
     break;
   }
   double least = 1e300;
-  std::string tightest;
+  Sentence loosest;
   const Json& tags = At(report, "/metrics/result/tangles");
   for (size_t k = 0; k < tags.size(); ++k) {
     const double value = NumberAt(tags[k], "/min_signed_gli");
     if (!(value < least)) continue;
     least = value;
-    tightest = fmt::format("The hold is loosest in frame {}: tag {} stands at {:.2f} there.",
-                           tags[k].value("worst_frame", 0), k + 1, value);
+    const int frame = tags[k].value("worst_frame", 0);
+    loosest = {fmt::format("The hold is loosest in frame {}: tag {} stands at {:.2f} there.", frame,
+                           k + 1, value),
+               frame};
   }
-  if (look.empty() && !tightest.empty()) look.push_back(tightest);
+  if (look.empty() && !loosest.text.empty()) look.push_back(loosest);
   const double a = NumberAt(report, "/metrics/result/a/joint_edit_deg");
   const double b = NumberAt(report, "/metrics/result/b/joint_edit_deg");
   if (!std::isnan(a) && !std::isnan(b)) {
-    look.push_back(fmt::format(
-        "The price: joints of a turn by {:.1f} degrees on average, those of b by {:.1f}.", a, b));
+    look.push_back({fmt::format(
+        "The price: joints of a turn by {:.1f} degrees on average, those of b by {:.1f}.", a, b)});
   }
   return look;
 }
 
 }  // namespace
 
-int FrameNamedIn(const std::string& text) {
-  static const std::regex kFrame("frame ([0-9]{1,9})");
-  std::smatch match;
-  return std::regex_search(text, match, kFrame) ? std::stoi(match[1]) : -1;
-}
-
 Verdict VerdictOf(const Json& report) {
   Verdict verdict;
-  const Json& checks = At(report, "/requirements");
-  for (const Json& check : checks) {
-    if (!check.value("met", true)) verdict.missed.push_back(Missed(check));
+  const std::vector<ReadRequirement> checks = RequirementsOf(report);
+  for (const ReadRequirement& check : checks) {
+    if (!check.met) verdict.missed.push_back(Missed(check));
   }
   verdict.met = verdict.missed.empty();
   verdict.outcome = Outcome(report, verdict.missed.size(), checks.size());
@@ -236,7 +248,7 @@ std::vector<std::string> VerdictSentences(const Json& report) {
   std::vector<std::string> all = {verdict.outcome};
   for (const auto* part : {&verdict.asked, &verdict.missed, &verdict.why, &verdict.stopped,
                            &verdict.compared, &verdict.look}) {
-    all.insert(all.end(), part->begin(), part->end());
+    for (const Sentence& sentence : *part) all.push_back(sentence.text);
   }
   return all;
 }

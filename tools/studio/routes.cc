@@ -81,7 +81,11 @@ StudioAnswer AnswerOf(const std::exception& error) {
 
 StudioRoutes::StudioRoutes(StudioStart start, StudioLibrary* library, StudioClips* clips,
                            StudioJobs* jobs)
-    : start_(std::move(start)), library_(library), clips_(clips), jobs_(jobs) {
+    : start_(std::move(start)),
+      library_(library),
+      clips_(clips),
+      jobs_(jobs),
+      sessions_(start_.settings) {
   AddSessionRoutes();
   AddLibraryRoutes();
   AddPhotoRoutes();

@@ -31,6 +31,7 @@ struct StudioAnswer {
 struct StudioStart {
   StudioPosture posture;
   bool has_template = false;
+  Settings settings;  // of the sessions' queries
 };
 
 class StudioRoutes {

@@ -53,8 +53,8 @@ StudioPosture PostureOfLibrary(StudioLibrary* library, const std::string& id) {
   return out;
 }
 
-StudioSession::StudioSession(const StudioPosture& start)
-    : pose_(start.posture), documents_{start.document} {
+StudioSession::StudioSession(const StudioPosture& start, const Settings& settings)
+    : pose_(start.posture, settings), documents_{start.document} {
   if (start.posture.photo && !start.photo.empty()) {
     KeepPhoto(start.posture.photo->file, start.photo);
   }
@@ -121,7 +121,7 @@ report::Json StudioSession::State(bool live) {
   state["saved_as"] = document().id.empty() ? report::Json(nullptr) : report::Json(document().id);
   state.update(PostureStateJson(pose_));
   state["queries"] = live ? posing::LiveQueriesJson(pose_.posture(), tags_)
-                          : posing::QueriesJson(pose_.posture(), &tags_);
+                          : posing::QueriesJson(pose_.posture(), &tags_, pose_.settings());
   return state;
 }
 
@@ -216,7 +216,7 @@ std::string StudioSessions::Create(const StudioPosture& start) {
   Slot& slot = slots_[taken];
   const std::lock_guard lock(slot.mutex);
   slot.owner = id;
-  slot.session.emplace(start);
+  slot.session.emplace(start, settings_);
   return id;
 }
 

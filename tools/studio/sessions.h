@@ -35,7 +35,7 @@ StudioPosture PostureOfLibrary(StudioLibrary* library, const std::string& id);
 
 class StudioSession {
  public:
-  explicit StudioSession(const StudioPosture& start);
+  StudioSession(const StudioPosture& start, const Settings& settings);
 
   const posing::PoseSession& pose() const { return pose_; }
 
@@ -79,6 +79,8 @@ class StudioSessions {
     StudioSession* operator->() const { return session; }
   };
 
+  explicit StudioSessions(const Settings& settings) : settings_(settings) {}
+
   // Takes the place of the one unused longest where all are taken.
   std::string Create(const StudioPosture& start);
   Locked Find(const std::string& id);  // throws StudioError 404
@@ -95,6 +97,7 @@ class StudioSessions {
     int64_t used = 0;
   };
 
+  const Settings settings_;
   std::array<Slot, kMost> slots_;
   std::mutex table_mutex_;  // of the following
   std::array<Entry, kMost> table_;

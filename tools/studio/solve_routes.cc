@@ -37,7 +37,7 @@ void AddSettings(const io::Fields& settings, const io::Message& values,
     }
     const std::string assignment =
         item.key() + "=" + (value.is_string() ? settings.Text(item.key(), 100) : value.dump());
-    io::SetByName(&scratch, assignment);
+    io::SetByName(&scratch, assignment, "--set");
     arguments->push_back("--set");
     arguments->push_back(assignment);
   }

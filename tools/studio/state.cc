@@ -135,8 +135,6 @@ report::Json RequestsJson(const TemplatePosture& posture) {
   for (const TangleRequest& t : posture.tangles) {
     report::Json entry = {{"a", NodesJson(posture.body[0], {t.a.from, t.a.to})},
                           {"b", NodesJson(posture.body[1], {t.b.from, t.b.to})}};
-    if (t.from_s) entry["from"] = *t.from_s;
-    if (t.to_s) entry["to"] = *t.to_s;
     out.push_back(entry);
   }
   return out;

@@ -6,6 +6,7 @@
 // the opponent kicks, arches, reaches for the head in front of him, and hangs limp in between.
 // Nothing is captured data: see actor.h.
 #include "data/actors/performance.h"
+#include "data/actors/write_clip.h"
 
 namespace retarget {
 namespace {
@@ -109,12 +110,13 @@ const std::vector<Step> kSteps = {{kLeft, 1.50, 0.46, {0.00, 0.18, 4}, 0.05, 14}
 
 bool WriteClips(const std::string& folder) {
   // Stature, then ratios to the average: trunk, shoulders, arms, legs; then ankle and toe height.
-  const Build attacker{1.92, 1.02, 1.05, 1.01, 0.99, 0.079, 0.034};
-  const Build opponent{1.68, 0.99, 0.98, 1.00, 1.00, 0.070, 0.030};
+  const Actor attacker = MakeActor({1.92, 1.02, 1.05, 1.01, 0.99, 0.079, 0.034});
+  const Actor opponent = MakeActor({1.68, 0.99, 0.98, 1.00, 1.00, 0.070, 0.030});
   const Gait plodding({0.28, 0.09, 14}, kSteps);
-  return WriteClip(folder + "/a.bvh", attacker, {0.2, 0.5, -35}, kSeconds,
-                   [&](const Actor& actor, double t) { return Attacker(actor, plodding, t); }) &&
-         WriteClip(folder + "/b.bvh", opponent, {-0.9, 1.1, 50}, kSeconds, Opponent);
+  return WriteClip(folder + "/a.bvh", attacker, kSeconds, {0.2, 0.5, -35},
+                   [&](double t) { return Attacker(attacker, plodding, t); }) &&
+         WriteClip(folder + "/b.bvh", opponent, kSeconds, {-0.9, 1.1, 50},
+                   [&](double t) { return Opponent(opponent, t); });
 }
 
 }  // namespace

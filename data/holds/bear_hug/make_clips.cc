@@ -6,18 +6,18 @@
 // incommensurate frequencies, 0.3 to 1.6 Hz, that swell with the actor's effort. The two plans
 // agree only roughly, as those of two actors would: each steps at his own times to his own spots.
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "data/actors/actor.h"
 #include "data/actors/gait.h"
 #include "data/actors/restless.h"
+#include "data/actors/write_clip.h"
 
 namespace retarget {
 namespace {
 
-constexpr double kFps = 30, kSeconds = 10;
+constexpr double kSeconds = 10;
 
 // --- What the actors do ---
 
@@ -125,40 +125,19 @@ std::vector<Step> AttackerSteps() {
 
 // --- The clips ---
 
-using Performance = Posture (*)(const Actor&, const Gait&, double t);
-
-bool WriteClip(const std::string& path, const Build& build, const Gait& gait, const Place& stage,
-               Performance perform) {
-  std::FILE* out = std::fopen(path.c_str(), "w");
-  if (out == nullptr) return false;
-  const Actor actor = MakeActor(build);
-  const int frames = static_cast<int>(kSeconds * kFps) + 1;
-  std::fprintf(out, "HIERARCHY\n");
-  WriteJoint(actor, 0, 0, out);
-  std::fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.6f\n", frames, 1 / kFps);
-  for (int k = 0; k < frames; ++k) WriteFrame(actor, perform(actor, gait, k / kFps), stage, out);
-  return std::fclose(out) == 0;
+bool WriteClips(const std::string& folder) {
+  // Stature, then ratios to the average: trunk, shoulders, arms, legs; then ankle and toe height.
+  const Actor attacker = MakeActor({1.82, 1.01, 1.03, 1.01, 0.99, 0.076, 0.032});
+  const Actor opponent = MakeActor({1.72, 0.99, 0.98, 1.00, 1.01, 0.072, 0.030});
+  const Gait stalking({0.20, 0.06, 8}, AttackerSteps());
+  const Gait stumbling({0.14, 0.02, 6}, OpponentSteps());
+  return WriteClip(folder + "/a.bvh", attacker, kSeconds, {0, 0, 0},
+                   [&](double t) { return Attacker(attacker, stalking, t); }) &&
+         WriteClip(folder + "/b.bvh", opponent, kSeconds, {1.5, 0.8, 40},
+                   [&](double t) { return Opponent(opponent, stumbling, t); });
 }
 
 }  // namespace
 }  // namespace retarget
 
-int main(int argc, char** argv) {
-  using namespace retarget;
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: make_clips OUT_DIR\n");
-    return 2;
-  }
-  const std::string folder = argv[1];
-  // Stature, then ratios to the average: trunk, shoulders, arms, legs; then ankle and toe height.
-  const Build attacker{1.82, 1.01, 1.03, 1.01, 0.99, 0.076, 0.032};
-  const Build opponent{1.72, 0.99, 0.98, 1.00, 1.01, 0.072, 0.030};
-  const Gait stalking({0.20, 0.06, 8}, AttackerSteps());
-  const Gait stumbling({0.14, 0.02, 6}, OpponentSteps());
-  if (!WriteClip(folder + "/a.bvh", attacker, stalking, {0, 0, 0}, Attacker) ||
-      !WriteClip(folder + "/b.bvh", opponent, stumbling, {1.5, 0.8, 40}, Opponent)) {
-    std::fprintf(stderr, "%s: cannot write the clips there\n", argv[1]);
-    return 1;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return retarget::RunGenerator(argc, argv, retarget::WriteClips); }

@@ -5,6 +5,7 @@
 // head down; the opponent is pushed along, gathers himself between his bursts, tries to bring his
 // elbows down, twists and stamps. Both rest in between. Nothing is captured data: see actor.h.
 #include "data/actors/performance.h"
+#include "data/actors/write_clip.h"
 
 namespace retarget {
 namespace {
@@ -107,14 +108,14 @@ const std::vector<Step> kOpponentSteps = {{kRight, 1.15, 0.42, {0.00, 0.25, 1}},
 
 bool WriteClips(const std::string& folder) {
   // Stature, then ratios to the average: trunk, shoulders, arms, legs; then ankle and toe height.
-  const Build attacker{1.88, 1.01, 1.04, 1.02, 0.99, 0.077, 0.033};
-  const Build opponent{1.70, 1.00, 0.98, 0.99, 1.00, 0.071, 0.030};
+  const Actor attacker = MakeActor({1.88, 1.01, 1.04, 1.02, 0.99, 0.077, 0.033});
+  const Actor opponent = MakeActor({1.70, 1.00, 0.98, 0.99, 1.00, 0.071, 0.030});
   const Gait driving = GaitInPair({0.225, 0.12, 9}, {0, -0.13}, kAttackerSteps);
   const Gait stumbling = GaitInPair({0.135, 0.04, 8}, {0, 0.13}, kOpponentSteps);
-  return WriteClip(folder + "/a.bvh", attacker, {0.4, -0.7, -25}, kSeconds,
-                   [&](const Actor& actor, double t) { return Attacker(actor, driving, t); }) &&
-         WriteClip(folder + "/b.bvh", opponent, {-1.2, 0.9, 70}, kSeconds,
-                   [&](const Actor& actor, double t) { return Opponent(actor, stumbling, t); });
+  return WriteClip(folder + "/a.bvh", attacker, kSeconds, {0.4, -0.7, -25},
+                   [&](double t) { return Attacker(attacker, driving, t); }) &&
+         WriteClip(folder + "/b.bvh", opponent, kSeconds, {-1.2, 0.9, 70},
+                   [&](double t) { return Opponent(opponent, stumbling, t); });
 }
 
 }  // namespace

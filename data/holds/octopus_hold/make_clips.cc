@@ -6,6 +6,7 @@
 // comes; the opponent heaves to straighten up, staggers to the side, turns, staggers back, paws at
 // the leg with his free hand, and sags in between. Nothing is captured data: see actor.h.
 #include "data/actors/performance.h"
+#include "data/actors/write_clip.h"
 
 namespace retarget {
 namespace {
@@ -108,12 +109,13 @@ const std::vector<Step> kSteps = {{kLeft, 1.30, 0.40, {0.16, 0.04, 3}, 0.05, 12}
 
 bool WriteClips(const std::string& folder) {
   // Stature, then ratios to the average: trunk, shoulders, arms, legs; then ankle and toe height.
-  const Build attacker{1.72, 1.00, 1.00, 1.01, 1.01, 0.072, 0.031};
-  const Build opponent{1.88, 1.01, 1.03, 1.00, 1.00, 0.077, 0.033};
+  const Actor attacker = MakeActor({1.72, 1.00, 1.00, 1.01, 1.01, 0.072, 0.031});
+  const Actor opponent = MakeActor({1.88, 1.01, 1.03, 1.00, 1.00, 0.077, 0.033});
   const Gait staggering({0.335, 0.05, 16}, kSteps);
-  return WriteClip(folder + "/a.bvh", attacker, {0.9, -0.4, 65}, kSeconds, Attacker) &&
-         WriteClip(folder + "/b.bvh", opponent, {-0.5, 0.6, -20}, kSeconds,
-                   [&](const Actor& actor, double t) { return Opponent(actor, staggering, t); });
+  return WriteClip(folder + "/a.bvh", attacker, kSeconds, {0.9, -0.4, 65},
+                   [&](double t) { return Attacker(attacker, t); }) &&
+         WriteClip(folder + "/b.bvh", opponent, kSeconds, {-0.5, 0.6, -20},
+                   [&](double t) { return Opponent(opponent, staggering, t); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 // him sink. The opponent claws at the forearm, bends forward to throw the man on his back, twists,
 // stamps, is dragged along, and in the end slaps the arm. Nothing is captured data: see actor.h.
 #include "data/actors/performance.h"
+#include "data/actors/write_clip.h"
 
 namespace retarget {
 namespace {
@@ -111,14 +112,14 @@ const std::vector<Step> kOpponentSteps = {{kLeft, 0.62, 0.32, {0.02, 0.02, 0}, 0
 
 bool WriteClips(const std::string& folder) {
   // Stature, then ratios to the average: trunk, shoulders, arms, legs; then ankle and toe height.
-  const Build attacker{1.83, 1.00, 1.02, 1.02, 1.00, 0.075, 0.032};
-  const Build opponent{1.69, 1.01, 0.99, 1.00, 0.99, 0.071, 0.030};
+  const Actor attacker = MakeActor({1.83, 1.00, 1.02, 1.02, 1.00, 0.075, 0.032});
+  const Actor opponent = MakeActor({1.69, 1.01, 0.99, 1.00, 0.99, 0.071, 0.030});
   const Gait hauling = GaitInPair({0.23, 0.24, 12}, {0.01, -0.16}, kAttackerSteps);
   const Gait staggering = GaitInPair({0.165, 0.07, 11}, {0, 0.16}, kOpponentSteps);
-  return WriteClip(folder + "/a.bvh", attacker, {-0.6, 0.3, 15}, kSeconds,
-                   [&](const Actor& actor, double t) { return Attacker(actor, hauling, t); }) &&
-         WriteClip(folder + "/b.bvh", opponent, {1.1, 1.4, -60}, kSeconds,
-                   [&](const Actor& actor, double t) { return Opponent(actor, staggering, t); });
+  return WriteClip(folder + "/a.bvh", attacker, kSeconds, {-0.6, 0.3, 15},
+                   [&](double t) { return Attacker(attacker, hauling, t); }) &&
+         WriteClip(folder + "/b.bvh", opponent, kSeconds, {1.1, 1.4, -60},
+                   [&](double t) { return Opponent(opponent, staggering, t); });
 }
 
 }  // namespace

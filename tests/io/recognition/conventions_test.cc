@@ -325,7 +325,7 @@ class ConventionTest : public testing::Test {
  protected:
   // Calls check(convention, its names) for all of them.
   void ForEach(const std::function<void(const Convention&, const JointNames&)>& check) {
-    const auto list = nlohmann::json::parse(ReadWholeFile(SharedPath("rigs/joint_names.json")));
+    const auto list = nlohmann::json::parse(ReadWholeFile(TestDataPath("rigs/joint_names.json")));
     ASSERT_EQ(list.size(), Conventions().size());
     for (const Convention& c : Conventions()) {
       SCOPED_TRACE(c.key);
@@ -336,14 +336,12 @@ class ConventionTest : public testing::Test {
 };
 
 TEST_F(ConventionTest, WithTheBonesThatExportersAdd) {
-  SKIP_WITHOUT_SHARED_DATA();
   ForEach([](const Convention& c, const JointNames& names) {
     ExpectMap(FullFigure(c, names), names, Same, c.profile);
   });
 }
 
 TEST_F(ConventionTest, UnderPrefixesNamespacesAndMarks) {
-  SKIP_WITHOUT_SHARED_DATA();
   ForEach([](const Convention& c, const JointNames& names) {
     const std::string prefix = c.prefix;
     const std::vector<Rename> renames = {
@@ -368,7 +366,6 @@ TEST_F(ConventionTest, UnderPrefixesNamespacesAndMarks) {
 }
 
 TEST_F(ConventionTest, WithOtherCaseAndSeparators) {
-  SKIP_WITHOUT_SHARED_DATA();
   const auto mapped = [](int (*change)(int)) {
     return [change](std::string n) {
       std::transform(n.begin(), n.end(), n.begin(),
@@ -400,7 +397,6 @@ TEST_F(ConventionTest, WithOtherCaseAndSeparators) {
 
 // Sketchfab puts a number of its own behind every name.
 TEST_F(ConventionTest, WithNumberedNames) {
-  SKIP_WITHOUT_SHARED_DATA();
   ForEach([](const Convention& c, const JointNames& names) {
     RigFigure figure = FullFigure(c, names);
     std::map<std::string, std::string> numbered;
@@ -416,7 +412,6 @@ TEST_F(ConventionTest, WithNumberedNames) {
 }
 
 TEST_F(ConventionTest, InAnyOrderAndWithAnyLocalAxes) {
-  SKIP_WITHOUT_SHARED_DATA();
   ForEach([](const Convention& c, const JointNames& names) {
     for (const unsigned seed : {1U, 2U, 3U, 4U}) {
       RigFigure figure = FullFigure(c, names);
@@ -429,7 +424,6 @@ TEST_F(ConventionTest, InAnyOrderAndWithAnyLocalAxes) {
 }
 
 TEST_F(ConventionTest, WithoutWhatIsNotRequired) {
-  SKIP_WITHOUT_SHARED_DATA();
   ForEach([](const Convention& c, const JointNames& names) {
     const std::vector<std::vector<std::string>> missing = {
         {"neck"}, {"left_clavicle", "right_clavicle"}, {"spine1"}, {"neck", "spine1"}};
@@ -451,7 +445,6 @@ TEST_F(ConventionTest, WithoutWhatIsNotRequired) {
 
 // A root-motion bone, and a node for the armature, above the figure.
 TEST_F(ConventionTest, BelowARootMotionBone) {
-  SKIP_WITHOUT_SHARED_DATA();
   ForEach([](const Convention& c, const JointNames& names) {
     RigFigure figure = FullFigure(c, names);
     auto& joints = figure.motion.rig.joints;
@@ -579,8 +572,7 @@ TEST(OtherConventions, AreRecognised) {
 
 // Rigify's full rig holds every bone twice: the deforming ones are read.
 TEST(OtherConventions, DeformingBonesComeBeforeTheirOriginals) {
-  SKIP_WITHOUT_SHARED_DATA();
-  const auto list = nlohmann::json::parse(ReadWholeFile(SharedPath("rigs/joint_names.json")));
+  const auto list = nlohmann::json::parse(ReadWholeFile(TestDataPath("rigs/joint_names.json")));
   const JointNames names = NamesOf(list.at("rigify").at("joints"));
   const Rename marked[] = {[](const std::string& n) { return "ORG-" + n; },
                            [](const std::string& n) { return "DEF-" + n; }};

@@ -165,7 +165,7 @@ TEST(RecogniseTest, ImplausibleHeightNeedsUnits) {
   figure.Scale(3.0 / 7);
   EXPECT_NE(Message(figure.motion).find("f.bvh: the figure is 49"), std::string::npos)
       << Message(figure.motion);
-  EXPECT_NE(Message(figure.motion).find("--units"), std::string::npos);
+  EXPECT_NE(Message(figure.motion).find("ClipOptions::units"), std::string::npos);
   const RigFacts facts = Recognise(figure.motion, {.metres_per_unit = 0.0033, .up = {}}, "f.bvh");
   EXPECT_EQ(facts.unit_name, "0.0033");
   EXPECT_NEAR(facts.stature, 1.623, 0.01);
@@ -231,7 +231,7 @@ TEST(RecogniseTest, TPoseAtTheStart) {
   for (int f = 0; f < 10; ++f) frames.push_back(figure.ArmsLowered(80));
   RigFacts facts = Recognise(figure.motion, {}, "f.bvh");
   EXPECT_EQ(facts.t_pose_frames, std::vector<int>{0});
-  EXPECT_TRUE(HasNote(facts, "--skip-frames 1 "));
+  EXPECT_TRUE(HasNote(facts, "ClipOptions::skip_frames 1 "));
   frames.insert(frames.begin(), frames.front());
   EXPECT_EQ(Recognise(figure.motion, {}, "f.bvh").t_pose_frames, (std::vector<int>{0, 1}));
 }
@@ -244,7 +244,7 @@ TEST(RecogniseTest, BlendedTPoseIsToldByItsLeap) {
   frames.insert(frames.end(), 10, resting);
   RigFacts facts = Recognise(figure.motion, {}, "f.bvh");  // 2500 degrees per second
   EXPECT_EQ(facts.t_pose_frames, std::vector<int>{0});
-  EXPECT_TRUE(HasNote(facts, "--skip-frames 2 "));
+  EXPECT_TRUE(HasNote(facts, "ClipOptions::skip_frames 2 "));
   figure.motion.frame_time = 0.1;  // the same as a movement
   EXPECT_TRUE(Recognise(figure.motion, {}, "f.bvh").t_pose_frames.empty());
 }
@@ -291,10 +291,12 @@ TEST(RecogniseTest, RefusalNamesWhatIsMissing) {
   Figure figure(ClassicNames());
   figure.motion.rig.joints[figure.Index("left_knee")].name = "LeftKne";
   figure.motion.rig.joints[figure.Index("right_elbow")].parent = 0;  // nor is the shape a human's
-  EXPECT_EQ(Message(figure.motion),
+  RecogniseOptions options;
+  options.words.map_by_hand = "`draw {}`";
+  EXPECT_EQ(Message(figure.motion, options),
             "f.bvh: no human figure: nothing plays left_knee (nearest convention 'classic'); the "
             "names nearest to left_knee are 'LeftKne', 'LeftAnkle', 'LeftHip'; to map it by hand: "
-            "`retarget map f.bvh --yaml > a.map.yaml`, edit it, give it with --map-a a.map.yaml");
+            "`draw f.bvh`");
 }
 
 TEST(RecogniseTest, NamesInTheWrongPlaceAreRefused) {
@@ -366,7 +368,6 @@ TEST(RecogniseTest, JsonSurvivesNamesThatAreNoText) {
 // --- Conventions: the published names, as a list that this code does not read, are the oracle ---
 
 TEST(RecogniseTest, EveryPublishedConvention) {
-  SKIP_WITHOUT_SHARED_DATA();
   const Names profiles = {{"mixamo/rpm/humanik/lafan1", "mixamo"},
                           {"cmu_cgspeed", "cmu"},
                           {"classic_bvh/xsens", "classic"},
@@ -389,7 +390,7 @@ TEST(RecogniseTest, EveryPublishedConvention) {
                           {"biped", "Bip01 "},
                           {"reallusion_cc", "CC_Base_"},
                           {"rigify", "DEF-"}};
-  const auto list = nlohmann::json::parse(ReadWholeFile(SharedPath("rigs/joint_names.json")));
+  const auto list = nlohmann::json::parse(ReadWholeFile(TestDataPath("rigs/joint_names.json")));
   EXPECT_EQ(list.size(), profiles.size());
   for (const auto& [convention, entry] : list.items()) {
     for (const bool prefixed : {false, true}) {
@@ -521,9 +522,9 @@ TEST(RecogniseTest, RealPairs) {
       CheckFile(expected, path);
       const BvhFile file = ReadBvh(path);
       const RigFacts facts = Recognise(file.motion, {}, path);
-      EXPECT_TRUE(HasNote(facts, "--units"));
+      EXPECT_TRUE(HasNote(facts, "ClipOptions::units"));
       // Its filter swings back in frames 5 and 6 (speeds of the upper arms, read off the file).
-      EXPECT_TRUE(HasNote(facts, "--skip-frames 7 "));
+      EXPECT_TRUE(HasNote(facts, "ClipOptions::skip_frames 7 "));
     }
   }
 }

@@ -1,4 +1,4 @@
-// The exact answers of the shared golden files: direct quadrature of Eq. 1 in 220-bit arithmetic.
+// The exact answers of tests/data/golden: direct quadrature of Eq. 1 in 220-bit arithmetic.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json Golden(const std::string& name) {
-  return Json::parse(ReadWholeFile(SharedPath("golden/" + name)));
+  return Json::parse(ReadWholeFile(TestDataPath("golden/" + name)));
 }
 
 Vec3 ToVec3(const Json& j) { return Vec3(j[0], j[1], j[2]); }
@@ -37,7 +37,6 @@ double GradientError(const SegmentGliGradient& got, const Json& expected) {
 }
 
 TEST(Golden, SegmentPairs) {
-  SKIP_WITHOUT_SHARED_DATA();
   int checked = 0;
   const Json file = Golden("segment_pairs.json");
   for (const Json& p : file.is_array() ? file : file["pairs"]) {
@@ -53,7 +52,6 @@ TEST(Golden, SegmentPairs) {
 }
 
 TEST(Golden, DegeneratePairs) {
-  SKIP_WITHOUT_SHARED_DATA();
   int checked = 0, gradients = 0;
   const Json file = Golden("degenerate_pairs.json");
   for (const Json& p : file.is_array() ? file : file["pairs"]) {
@@ -74,7 +72,6 @@ TEST(Golden, DegeneratePairs) {
 }
 
 TEST(Golden, ClosedCurvesHaveIntegerLinkingNumbers) {
-  SKIP_WITHOUT_SHARED_DATA();
   int checked = 0;
   const Json file = Golden("curves.json");
   for (const Json& c : file.is_array() ? file : file["curves"]) {
@@ -95,7 +92,6 @@ std::string Key(const std::string& a0, const std::string& a1, const std::string&
 }
 
 TEST(Golden, PosturesGiveTheLiteralAlgorithm1ListExactly) {
-  SKIP_WITHOUT_SHARED_DATA();
   const Body body = StandardBody(AverageMeasures(1.75));
   const Json file = Golden("postures.json");
   ASSERT_EQ(file.size(), 3u);

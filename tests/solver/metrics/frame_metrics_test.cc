@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "solver/metrics/metrics.h"
 #include "tests/solver/scene_fixture.h"
 
@@ -68,19 +70,65 @@ TEST_F(SeriesTest, DepthFloorAndHoldFollowTheRuler) {
   EXPECT_NEAR(s.between[7].hold_m[0], touching - 0.00325, 1e-12);
 }
 
-TEST_F(SeriesTest, FloorDepthIsTheWidestCapsulesAtTheLowestNode) {
+// Standing, on its back, head first and somehow: the capsules themselves say what is lowest.
+TEST_F(SeriesTest, FloorDepthIsThatOfTheLowestCapsule) {
   const Body& body = subject_.body[1];
-  const int toe = Node(1, "left_toe");
-  const double height = PoseBody(body, source_[1].frames[0]).node[toe].y() - body.nodes[toe].radius;
-  for (int t = 0; t < kFrames; ++t) motion_[1].frames[t].root_position.y() -= height + 0.002 * t;
-  const FrameSeries s = Run();
-  // Toe and ankle of both feet: the lowest of the four. All sink alike.
-  const double first = s.at[0].figure[1].floor_m;
-  for (int t = 1; t < kFrames; ++t) {
-    EXPECT_NEAR(s.at[t].figure[1].floor_m, first + 0.002 * t, 1e-12);
-    EXPECT_EQ(s.at[t].figure[0].floor_m, 0);
+  std::set<int> lowest_nodes;
+  for (const Quat& turn : {Turn(0, 0, 0), Turn(-90, 0, 0), Turn(0, 0, 180), Turn(40, 10, 70)}) {
+    for (int t = 0; t < kFrames; ++t) {
+      Pose& pose = motion_[1].frames[t];
+      pose = source_[1].frames[t];
+      pose.rotation[0] = turn * pose.rotation[0];
+      pose.root_position.y() = 0.02 - 0.002 * t;
+    }
+    const FrameSeries s = Run();
+    for (int t = 0; t < kFrames; ++t) {
+      const PosedBody posed = PoseBody(body, motion_[1].frames[t]);
+      double deepest = 0;
+      int node = -1;
+      for (int n = 1; n < body.num_nodes(); ++n) {  // both ends of every segment
+        for (const int end : {body.nodes[n].parent, n}) {
+          const double depth = body.nodes[n].radius - posed.node[end].y();
+          if (depth > deepest) deepest = depth, node = end;
+        }
+      }
+      EXPECT_NEAR(s.at[t].figure[1].floor_m, deepest, 1e-12);
+      EXPECT_EQ(s.at[t].figure[1].floor_node, node);
+      EXPECT_EQ(s.at[t].figure[0].floor_m, 0);
+      EXPECT_GT(deepest, 0.05);
+      lowest_nodes.insert(node);
+    }
   }
-  EXPECT_GE(first, 0);
+  EXPECT_GE(lowest_nodes.size(), 3u);
+}
+
+TEST_F(SeriesTest, FloorDepthIsTheWidestCapsulesAtTheLowestNode) {
+  // b sinks by 2 mm per frame from where its toes' capsules touch the floor. The ankles are as low:
+  // there the wider of shank and foot counts.
+  const std::array<int, 2> toe = {Node(1, "left_toe"), Node(1, "right_toe")};
+  const std::array<int, 2> ankle = {Node(1, "left_ankle"), Node(1, "right_ankle")};
+  Body& body = subject_.body[1];
+  const std::vector<Vec3> node = PoseBody(body, source_[1].frames[0]).node;
+  for (int side = 0; side < 2; ++side) {
+    ASSERT_NEAR(node[ankle[side]].y(), node[toe[0]].y(), 1e-12);
+    body.nodes[toe[side]].radius = 0.04;
+  }
+  for (int t = 0; t < kFrames; ++t) {
+    motion_[1].frames[t].root_position.y() -= node[toe[0]].y() - 0.04 + 0.002 * t;
+  }
+  for (const double shank : {0.02, 0.04, 0.055}) {
+    body.nodes[ankle[0]].radius = shank;
+    body.nodes[ankle[1]].radius = 0.03;
+    const FrameSeries s = Run();
+    const double deeper = std::max(shank, 0.04) - 0.04;
+    for (int t = 0; t < kFrames; ++t) {
+      EXPECT_NEAR(s.at[t].figure[1].floor_m, deeper + 0.002 * t, 1e-12) << shank << " " << t;
+      EXPECT_EQ(s.at[t].figure[0].floor_m, 0);
+      if (deeper > 0) {
+        EXPECT_EQ(s.at[t].figure[1].floor_node, ankle[0]);
+      }
+    }
+  }
 }
 
 TEST_F(SeriesTest, FootSpeedIsTheFastestPlantedNodeAndZeroElsewhere) {

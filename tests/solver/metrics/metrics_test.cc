@@ -364,54 +364,91 @@ TEST_F(MeasureTest, RequirementsMetAndMissed) {
   Metrics m = Run();
   m.tangles[0] = {0.61, 0.60, 0, 4};
   const Requirements limits;
-  const auto check = [&](const std::string& name) {
+  using Kind = RequirementKind;
+  const auto check = [&](Kind kind, int figure = -1) {
     for (const RequirementCheck& c : CheckRequirements(subject_, m, limits)) {
-      if (c.name == name) return c;
+      if (c.kind == kind && c.figure == figure) return c;
     }
-    ADD_FAILURE() << "no requirement " << name;
+    ADD_FAILURE() << "no such requirement";
     return RequirementCheck{};
   };
   const auto missed = [&] {
-    std::string names;
+    std::vector<std::pair<Kind, int>> kinds;  // with the figure
     for (const RequirementCheck& c : CheckRequirements(subject_, m, limits)) {
-      if (!c.met) names += c.name + ";";
+      if (!c.met) kinds.emplace_back(c.kind, c.figure);
     }
-    return names;
+    return kinds;
   };
+  using Missed = std::vector<std::pair<Kind, int>>;
+  const auto limbs = [](const RequirementCheck& c) {
+    std::vector<std::pair<int, int>> out;
+    for (const LimbNode& limb : c.limbs) out.emplace_back(limb.figure, limb.node);
+    return out;
+  };
+  using Limbs = std::vector<std::pair<int, int>>;
   m.hold_m = {0.0199};
-  EXPECT_EQ(missed(), "");
-  EXPECT_EQ(check("tangle 1").value, 0.60);
-  EXPECT_EQ(check("tangle 1").where, "a (left_hand, right_hand) x b (root, head_top), frame 4");
+  EXPECT_EQ(missed(), Missed{});
+  EXPECT_EQ(check(Kind::kTangle).value, 0.60);
+  EXPECT_EQ(check(Kind::kTangle).item, 0);
+  EXPECT_EQ(check(Kind::kTangle).frame, 4);
+  EXPECT_EQ(limbs(check(Kind::kTangle)), (Limbs{{0, Node(0, "left_hand")},
+                                                {0, Node(0, "right_hand")},
+                                                {1, Node(1, "root")},
+                                                {1, Node(1, "head_top")}}));
   m.tangles[0].min_signed_gli_between = 0.5;  // must be over, not at
-  EXPECT_EQ(missed(), "tangle 1;");
+  EXPECT_EQ(missed(), (Missed{{Kind::kTangle, -1}}));
   m.tangles[0].min_signed_gli_between = 0.51;
   m.hold_m = {0.0201};
   m.hold_frame = {9};
-  EXPECT_EQ(missed(), "hold 1;");
-  EXPECT_EQ(check("hold 1").where, "frame 9");
+  EXPECT_EQ(missed(), (Missed{{Kind::kHold, -1}}));
+  EXPECT_EQ(check(Kind::kHold).item, 0);
+  EXPECT_EQ(check(Kind::kHold).frame, 9);
   m.hold_m = {0.02};
   m.pass_throughs = {{7, Node(0, "left_wrist"), Node(1, "head")}};
-  EXPECT_EQ(missed(), "pass-throughs;");
-  EXPECT_EQ(check("pass-throughs").where, "frame 7, a left_wrist through b head");
+  EXPECT_EQ(missed(), (Missed{{Kind::kPassThroughs, -1}}));
+  EXPECT_EQ(check(Kind::kPassThroughs).frame, 7);
+  EXPECT_EQ(limbs(check(Kind::kPassThroughs)),
+            (Limbs{{0, Node(0, "left_wrist")}, {1, Node(1, "head")}}));
   m.pass_throughs.clear();
   m.penetration_between_m = 0.021;
   m.penetration_frame = 3;
   m.penetration_node_a = Node(0, "left_hand");
   m.penetration_node_b = Node(1, "chest");
-  EXPECT_EQ(missed(), "penetration;");
-  EXPECT_EQ(check("penetration").value, 0.021);
-  EXPECT_EQ(check("penetration").where, "frame 3, a left_hand in b chest");
+  EXPECT_EQ(missed(), (Missed{{Kind::kPenetration, -1}}));
+  EXPECT_EQ(check(Kind::kPenetration).value, 0.021);
+  EXPECT_EQ(check(Kind::kPenetration).frame, 3);
+  EXPECT_EQ(limbs(check(Kind::kPenetration)),
+            (Limbs{{0, Node(0, "left_hand")}, {1, Node(1, "chest")}}));
   m.penetration_between_m = 0.02;
   m.penetration_over_1cm_percent = 1.1;
-  EXPECT_EQ(missed(), "penetration over 1 cm;");
+  EXPECT_EQ(missed(), (Missed{{Kind::kPenetrationOver1cm, -1}}));
   m.penetration_over_1cm_percent = 1;
   m.figure[1].foot_drift_m = 0.011;
   m.figure[1].foot_drift_frame = 5;
-  EXPECT_EQ(missed(), "foot drift b;");
-  EXPECT_EQ(check("foot drift b").where, "frame 5");
+  EXPECT_EQ(missed(), (Missed{{Kind::kFootDrift, 1}}));
+  EXPECT_EQ(check(Kind::kFootDrift, 1).frame, 5);
   m.figure[1].foot_drift_m = 0;
   m.figure[0].floor_m = 0.011;
-  EXPECT_EQ(missed(), "floor a;");
+  EXPECT_EQ(missed(), (Missed{{Kind::kFloor, 0}}));
+}
+
+TEST_F(MeasureTest, WhatIsWrittenMustFitToo) {
+  Metrics m = Run();
+  m.figure[1].length_error_percent = 0.51;
+  Requirements limits;
+  const auto missed = [&](const std::array<double, 2>& write_back_m) {
+    std::vector<std::pair<RequirementKind, int>> out;
+    for (const RequirementCheck& c : CheckWritten(m, write_back_m, limits)) {
+      if (!c.met) out.emplace_back(c.kind, c.figure);
+    }
+    return out;
+  };
+  using Missed = std::vector<std::pair<RequirementKind, int>>;
+  EXPECT_EQ(missed({0.005, 0.0051}),
+            (Missed{{RequirementKind::kWriteBack, 1}, {RequirementKind::kSegmentLength, 1}}));
+  limits.segment_length_percent = 1;
+  limits.write_back_m = 0.004;
+  EXPECT_EQ(missed({0.005, 0.003}), (Missed{{RequirementKind::kWriteBack, 0}}));
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
 // Every term's analytic Jacobian against central differences in the coordinates of the edit, at the
-// source, and at random edits, on the active side of its hinges; and the tracking identity.
+// source, and at random edits, on the active side of its hinges; and tracking against its
+// definition.
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "solver/problem/problem.h"
+#include "solver/problem/terms/pose_tracking.h"
 #include "solver/problem/terms/ray.h"
+#include "solver/problem/terms/root_tracking.h"
 #include "tests/solver/scene_fixture.h"
 
 namespace retarget::solver {
@@ -244,14 +247,61 @@ TEST(Terms, SmoothnessGradientAndStencilMatchTheCost) {
   EXPECT_GT(checked, 400);
 }
 
-TEST(Terms, TrackingAloneIsZeroAtTheSource) {
-  const Scene scene = SmallScene(5, 0.2);
+Eigen::Isometry3d RootOf(const Pose& pose) {
+  return Eigen::Translation3d(pose.root_position) * pose.rotation[0];
+}
+
+// The terms' own definition, from the poses: turns of the joints from the source's, and how far
+// each root is from where its clip, or the partner whom it follows, wants it.
+double TrackingCost(const Scene& scene, const Settings& settings,
+                    const std::array<Clip, 2>& moved) {
+  double cost = 0;
+  for (int f = 0; f < 2; ++f) {
+    for (int t = 0; t < scene.num_frames(); ++t) {
+      const Pose &is = moved[f].frames[t], &source = scene.source[f].frames[t];
+      for (size_t l = 1; l < is.rotation.size(); ++l) {
+        const double turn = is.rotation[l].angularDistance(source.rotation[l]);
+        const double share = JointShare(settings.joint_weights, scene.body[f].links[l].name);
+        cost += 0.5 * std::pow(settings.weights.pose_tracking * share * turn, 2);
+      }
+      Eigen::Isometry3d target = RootOf(source);
+      if (scene.root[f] == RootLeader::kPartner) {
+        target = RootOf(moved[1 - f].frames[t]) * RootOf(scene.posture.pose[1 - f]).inverse() *
+                 RootOf(scene.posture.pose[f]) *
+                 RootOf(scene.source[f].frames[scene.template_frame]).inverse() * RootOf(source);
+      }
+      const double off = (is.root_position - target.translation()).norm();
+      const double turn = is.rotation[0].angularDistance(Quat(target.rotation()));
+      cost += 0.5 * std::pow(settings.weights.root_tracking, 2) * (off * off + turn * turn);
+    }
+  }
+  return cost;
+}
+
+TEST(Terms, TrackingIsTheDistanceFromTheSource) {
   Settings settings;
-  settings.weights = {};
-  settings.weights.foot_lock = settings.weights.hold = settings.weights.penetration = 0;
-  settings.weights.self_penetration = settings.weights.ground = settings.weights.tangle = 0;
-  const Problem problem(scene, settings);
-  EXPECT_LT(problem.Cost(UnknownsFromPoses(scene, scene.source), 1, 1), 1e-20);
+  const double pose_weight = settings.weights.pose_tracking;
+  settings.weights = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  settings.weights.pose_tracking = pose_weight;
+  settings.weights.root_tracking = 6;
+  for (const bool follow : {false, true}) {
+    Scene scene = SmallScene(5, 0.2, follow);
+    scene.template_frame = 2;
+    const Problem problem(scene, settings);
+    std::array<Clip, 2> moved;
+    for (int f = 0; f < 2; ++f) {
+      moved[f] = Fidget(scene.body[f], scene.posture.pose[f], 5, 30, 91 + f, 0.3);
+    }
+    for (const auto& clips : {moved, scene.source}) {
+      const double expected = TrackingCost(scene, settings, clips);
+      EXPECT_NEAR(problem.Cost(UnknownsFromPoses(scene, clips), 1, 1), expected,
+                  1e-12 + 1e-9 * expected)
+          << "follow " << follow;
+    }
+    EXPECT_GT(TrackingCost(scene, settings, moved), 1);
+    EXPECT_EQ(TrackingCost(scene, settings, scene.source) < 1e-20, !follow)
+        << "a follower leaves its clip";
+  }
 }
 
 }  // namespace

@@ -206,9 +206,29 @@ TEST(Simulation, ALostHoldIsSaid) {
   SimulationSettings settings;
   settings.tangle_stiffness = 0;
   const SimulationResult result = Simulate(scene, settings);
-  EXPECT_TRUE(result.status == SimulationStatus::kLostHold ||
-              result.status == SimulationStatus::kPassedThrough)
-      << result.message;
+  EXPECT_EQ(result.status, SimulationStatus::kLostHold) << result.message;
+  EXPECT_NE(result.message.find("it lost the tag a ("), std::string::npos) << result.message;
+}
+
+// a's left arm sweeps back to where b's right arm hangs. Hard contacts stop it; soft ones do not.
+TEST(Simulation, ALimbThatGoesThroughAnotherIsSaid) {
+  Scene scene = StandingApart(45);
+  for (int f = 0; f < 2; ++f) {
+    scene.posture.pose[f].root_position.x() = 0.9 * f;
+    scene.source[f].frames.assign(45, scene.posture.pose[f]);
+  }
+  const int shoulder = scene.body[0].FindLink("left_shoulder");
+  for (int t = 0; t < 45; ++t) {
+    const double swept = std::clamp((t - 10) / 20.0, 0.0, 1.0);
+    scene.source[0].frames[t].rotation[shoulder] = Turn(0, -50 + 110 * swept, 0) * Turn(0, 0, -30);
+  }
+  scene.posture.pose[0] = scene.source[0].frames[0];
+  SimulationSettings settings;
+  EXPECT_EQ(Simulate(scene, settings).status, SimulationStatus::kCompleted);
+  settings.contact_time = 0.2;
+  const SimulationResult result = Simulate(scene, settings);
+  EXPECT_EQ(result.status, SimulationStatus::kPassedThrough) << result.message;
+  EXPECT_NE(result.message.find("of a went through right_"), std::string::npos) << result.message;
 }
 
 // Both kinds of force act between the figures alone, and the second one points where the tag grows.

@@ -6,6 +6,7 @@
 #include "model/geometry/so3.h"
 #include "model/rig/write_back.h"
 #include "tests/tools/run_program.h"
+#include "tools/cli/commands.h"
 #include "tools/report/report.h"
 
 namespace retarget::cli {
@@ -15,6 +16,7 @@ std::string ErrorOf(const std::string& clip) {
   io::ClipOptions options;
   options.path = clip;
   options.option = "a";
+  options.words = ProgramWords();
   try {
     io::LoadClip(options);
   } catch (const InputError& error) {

@@ -200,10 +200,9 @@ TEST(Cli, TanglesMapConfigAndTemplate) {
 }
 
 TEST(Cli, GoldenPosturesGiveTheirListsThroughTheCommandLine) {
-  SKIP_WITHOUT_SHARED_DATA();
   const Scratch scratch;
   int checked = 0;
-  for (const Json& posture : Json::parse(ReadWholeFile(SharedPath("golden/postures.json")))) {
+  for (const Json& posture : Json::parse(ReadWholeFile(TestDataPath("golden/postures.json")))) {
     const Json positions = {{"A", posture["A"]}, {"B", posture["B"]}};
     const Outcome run =
         RunProgram(scratch, "tangles --json " + scratch.Write("p.json", positions.dump()));

@@ -168,7 +168,7 @@ TEST(PoseSession, MirrorTwiceIsTheIdentityAndOnceFlipsEverySign) {
   session.Apply(AddHold{{{0, 8, Vec3(0.01, 0.02, 0.03)}, 1, 6, std::nullopt, true}});
   session.Apply(AddHold{{{1, 16, Vec3::Zero()}, kWorld, 0, std::nullopt, false}});
   session.Apply(Pin{1, 16, PinRay{Vec3(1, 2, 3), Vec3(0.1, 0.2, 1)}});
-  session.Apply(SetTangles{{{{8, 12}, {3, 15}, std::nullopt, std::nullopt}}});
+  session.Apply(SetTangles{{{{8, 12}, {3, 15}}}});
   const PoseState before = session.state();
   for (const int figure : {kBoth, 0, 1}) {
     session.Apply(Mirror{figure});
@@ -283,7 +283,7 @@ TEST(PoseSession, InvalidOperationsChangeNothing) {
                            EditHold{-1, {}},
                            AddHold{{{0, 4, Vec3::Zero()}, 0, 4, std::nullopt, false}},
                            SetSupports{0, {3, 3}},
-                           SetTangles{{{{4, 4}, {0, 1}, std::nullopt, std::nullopt}}},
+                           SetTangles{{{{4, 4}, {0, 1}}}},
                            SetCamera{TemplateCamera{Vec3::Zero(), Vec3::Zero(), 40}},
                            SetPhoto{TemplatePhoto{"x.jpg", 2, 1, Eigen::Vector2d::Zero()}}};
   for (const Operation& operation : bad) {

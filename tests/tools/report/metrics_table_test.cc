@@ -79,7 +79,7 @@ TEST_F(MetricsTableTest, EveryRequirementHasItsRow) {
   }
   const std::vector<solver::RequirementCheck> checks =
       solver::CheckRequirements(subject_, result_, {});
-  const Json requirements = ChecksJson(checks);
+  const Json requirements = ChecksJson(checks, subject_.body);
   int answered = 0;
   for (const MetricRow& row : MetricRows()) {
     answered += !LimitOf(row, requirements).is_null();

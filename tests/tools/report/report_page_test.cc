@@ -3,7 +3,9 @@
 
 #include "tests/test_data.h"
 #include "tools/report/embedded_page.h"
+#include "tools/report/html.h"
 #include "tools/report/page.h"
+#include "tools/report/requirement_json.h"
 #include "tools/report/verdict.h"
 
 namespace retarget::report {
@@ -52,9 +54,9 @@ Json Series() {
       {"fps", 10}, {"frames", 3}, {"source", motion}, {"baseline", nullptr}, {"result", motion}};
 }
 
-std::string Joined(const std::vector<std::string>& lines) {
+std::string Joined(const std::vector<Sentence>& lines) {
   std::string all;
-  for (const std::string& line : lines) all += line + "\n";
+  for (const Sentence& line : lines) all += line.text + "\n";
   return all;
 }
 
@@ -117,14 +119,77 @@ TEST(Verdict, NamesWhatIsMissedWithItsPlace) {
   EXPECT_FALSE(verdict.met);
   EXPECT_EQ(verdict.outcome, "The hold is lost in 2 of 10 frames; 2 of 3 requirements are missed.");
   ASSERT_EQ(verdict.missed.size(), 2u);
-  EXPECT_NE(verdict.missed[0].find("0.30"), std::string::npos);
-  EXPECT_NE(verdict.missed[0].find("frame 7"), std::string::npos);
-  EXPECT_NE(verdict.missed[1].find("3.1 cm, 2.0 allowed"), std::string::npos);
-  EXPECT_NE(verdict.missed[1].find("a left elbow in b neck"), std::string::npos);
+  EXPECT_NE(verdict.missed[0].text.find("0.30"), std::string::npos);
+  EXPECT_NE(verdict.missed[0].text.find("frame 7"), std::string::npos);
+  EXPECT_NE(verdict.missed[1].text.find("3.1 cm, 2.0 allowed"), std::string::npos);
+  EXPECT_NE(verdict.missed[1].text.find("a left elbow in b neck"), std::string::npos);
   EXPECT_NE(Joined(verdict.stopped).find("time limit"), std::string::npos);
   EXPECT_NE(Joined(verdict.compared).find("The simulation lost the hold in 7 of 10 frames"),
             std::string::npos);
   EXPECT_NE(Joined(verdict.look).find("frame 7 first"), std::string::npos);
+}
+
+// The requirement's kind decides, not its name.
+TEST(Verdict, ReadsKindAndFrameAndNotNames) {
+  Json report = GoodReport();
+  report["requirements"] = {{{"name", "penetration 1"},
+                             {"value", 0.031},
+                             {"limit", 0.02},
+                             {"unit", "m"},
+                             {"met", false},
+                             {"where", "somewhere"},
+                             {"kind", "foot_drift"},
+                             {"item", nullptr},
+                             {"figure", "b"},
+                             {"frame", 31},
+                             {"limbs", Json::array()}},
+                            {{"name", "x"},
+                             {"value", 2},
+                             {"limit", 1},
+                             {"unit", "m"},
+                             {"met", false},
+                             {"where", "frame 5"},
+                             {"kind", "of a later version"},
+                             {"frame", nullptr}}};
+  const Verdict verdict = VerdictOf(report);
+  ASSERT_EQ(verdict.missed.size(), 2u);
+  EXPECT_EQ(verdict.missed[0].text,
+            "A planted foot of b drifts by 3.1 cm, 2.0 allowed (somewhere).");
+  EXPECT_EQ(verdict.missed[0].frame, 31);
+  EXPECT_EQ(verdict.missed[1].text, "x: 200 cm, 100 allowed (frame 5).");
+  EXPECT_EQ(verdict.missed[1].frame, -1);
+  EXPECT_EQ(verdict.look.at(0).text, "Look at frame 31 first.");
+}
+
+// A report written before there were kinds reads as one with them.
+TEST(Verdict, OldReportsAreReadByTheirNames) {
+  const auto read = [](const char* name, const char* where) {
+    return RequirementFromJson(Requirement(name, 1, 2, "", true, where));
+  };
+  using Kind = solver::RequirementKind;
+  const ReadRequirement tangle = read("tangle 12", "a (x, y) x b (z, w), frame 7");
+  EXPECT_TRUE(tangle.Is(Kind::kTangle));
+  EXPECT_EQ(tangle.item, 11);
+  EXPECT_EQ(tangle.frame, 7);
+  EXPECT_EQ(tangle.figure, -1);
+  EXPECT_TRUE(read("penetration", "").Is(Kind::kPenetration));
+  EXPECT_TRUE(read("penetration over 1 cm", "").Is(Kind::kPenetrationOver1cm));
+  EXPECT_TRUE(read("pass-throughs", "").Is(Kind::kPassThroughs));
+  EXPECT_TRUE(read("hold 1", "frame 9").Is(Kind::kHold));
+  const ReadRequirement drift = read("foot drift b", "frame 0");
+  EXPECT_TRUE(drift.Is(Kind::kFootDrift));
+  EXPECT_EQ(drift.figure, 1);
+  EXPECT_TRUE(read("floor a", "").Is(Kind::kFloor));
+  EXPECT_TRUE(read("segment lengths a", "").Is(Kind::kSegmentLength));
+  EXPECT_TRUE(read("write-back b", "b.bvh").Is(Kind::kWriteBack));
+  EXPECT_FALSE(read("tangled", "").kind);
+  EXPECT_FALSE(read("hold x", "").kind);
+}
+
+TEST(Html, TheNamedFrameBecomesAJump) {
+  EXPECT_EQ(WithFrame("at frame 3, <b>", 3), "at <span data-frame=\"3\">frame 3</span>, &lt;b&gt;");
+  EXPECT_EQ(WithFrame("at frame 31", 3), "at frame 31");
+  EXPECT_EQ(WithFrame("at frame 3", -1), "at frame 3");
 }
 
 TEST(Verdict, AnEmptyReportIsNoError) {

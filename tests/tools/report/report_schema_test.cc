@@ -4,9 +4,19 @@
 #include <regex>
 #include <set>
 
+#if __has_include(<valijson/validator.hpp>)
+#define RETARGET_HAS_VALIJSON
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+#endif
+
 #include "tests/solver/scene_fixture.h"
 #include "tests/tools/run_program.h"
 #include "tools/report/report.h"
+#include "tools/report/subject_json.h"
 
 namespace retarget::report {
 namespace {
@@ -78,14 +88,23 @@ std::string PatternOf(const std::string& key) {
   return out;
 }
 
-std::set<std::string> RealKeys() {
+// Of runs that meet every requirement and that miss some.
+std::vector<std::string> RealReports() {
   const Scratch scratch;
-  std::set<std::string> keys;
-  for (const char* arguments : {" --frames 0:12", " --frames 0:12 --set weights.hold=0.1"}) {
-    const Outcome run =
-        RunProgram(scratch, kExample + " --json --out " + (scratch / "out") + arguments);
-    CollectKeys(Json::parse(run.out), "", &keys);
+  std::vector<std::string> reports;
+  for (const char* arguments :
+       {" --frames 0:12", " --frames 0:12 --set weights.hold=0.1",
+        " --frames 0:12 --set requirements.penetration_m=0 --set requirements.gli=0.9 "
+        "--set requirements.write_back_m=0 --set requirements.floor_m=0"}) {
+    reports.push_back(
+        RunProgram(scratch, kExample + " --json --out " + (scratch / "out") + arguments).out);
   }
+  return reports;
+}
+
+std::set<std::string> RealKeys() {
+  std::set<std::string> keys;
+  for (const std::string& report : RealReports()) CollectKeys(Json::parse(report), "", &keys);
   // What the example does not show, by the functions that write it: a pass-through, a hold to the
   // world.
   const solver::Scene scene = solver::SmallScene(4, 0.1);
@@ -116,6 +135,97 @@ TEST(ReportSchema, DocsAndRealReportsHaveTheSameKeys) {
   for (const std::string& path : real) {
     EXPECT_TRUE(described.count(path) > 0) << "docs/report.md does not describe " << path;
   }
+}
+
+TEST(ReportSchema, RealReportsFollowTheJsonSchema) {
+#ifdef RETARGET_HAS_VALIJSON
+  const nlohmann::json text =
+      nlohmann::json::parse(ReadWholeFile(ProjectPath("docs/report.schema.json")));
+  valijson::Schema schema;
+  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
+  const auto complaints = [&](const nlohmann::json& report) {
+    valijson::Validator validator;
+    valijson::ValidationResults results;
+    std::string out;
+    if (validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(report), &results)) {
+      return out;
+    }
+    valijson::ValidationResults::Error error;
+    while (results.popError(error)) {
+      for (const std::string& part : error.context) out += part;
+      out += ": " + error.description + "\n";
+    }
+    return out.empty() ? std::string("refused") : out;
+  };
+  nlohmann::json report;
+  size_t missed = 0;
+  for (const std::string& real : RealReports()) {
+    report = nlohmann::json::parse(real);
+    EXPECT_EQ(complaints(report), "");
+    missed += report.at("conflicts").size();
+  }
+  EXPECT_GE(missed, 3u);
+  // Every required key is one that a report may not lack, and every kind is one that it knows.
+  for (const auto& [key, value] : report.items()) {
+    nlohmann::json lacking = report;
+    lacking.erase(key);
+    EXPECT_NE(complaints(lacking), "") << "without " << key;
+  }
+  for (const auto& [pointer, bad] : {std::pair<const char*, nlohmann::json>{"/format", 2},
+                                     {"/requirements/0/kind", "tangles"},
+                                     {"/requirements/0/frame", -1},
+                                     {"/requirements/0/figure", "c"},
+                                     {"/frames", "90"},
+                                     {"/metrics/result/a/floor_m", nullptr},
+                                     {"/conflicts/0/cause", "bad luck"}}) {
+    nlohmann::json wrong = report;
+    wrong[nlohmann::json::json_pointer(pointer)] = bad;
+    EXPECT_NE(complaints(wrong), "") << pointer;
+  }
+#else
+  GTEST_SKIP() << "built without valijson (libvalijson-dev)";
+#endif
+}
+
+// A report with the body's nodes is read back to the same subject; one without is of the standard
+// body.
+TEST(ReportSchema, TheSubjectIsReadBack) {
+  const solver::Scene scene = solver::SmallScene(6, 0.1);
+  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  const solver::MotionView motion = solver::ViewOf(scene.body, scene.source);
+  const Json json = SubjectJson(subject, solver::Measure(subject, motion, motion));
+  Json old = json;
+  for (const char* figure : {"a", "b"}) old["bodies"][figure].erase("nodes");
+  for (const Json& report : {json, old}) {
+    const solver::MeasureSubject read = SubjectFromJson(report, "r.json");
+    for (int f = 0; f < 2; ++f) {
+      ASSERT_EQ(read.body[f].num_nodes(), subject.body[f].num_nodes());
+      for (int n = 0; n < subject.body[f].num_nodes(); ++n) {
+        const Node &x = read.body[f].nodes[n], &y = subject.body[f].nodes[n];
+        EXPECT_EQ(x.name, y.name);
+        EXPECT_EQ(x.parent, y.parent);
+        EXPECT_EQ(x.radius, y.radius);
+        EXPECT_EQ(read.body[f].links[x.link].name, subject.body[f].links[y.link].name);
+      }
+      EXPECT_EQ(read.length[f], subject.length[f]);
+    }
+    EXPECT_EQ(read.tangles.size(), subject.tangles.size());
+    EXPECT_EQ(read.holds.size(), subject.holds.size());
+  }
+  // Another body: a finger more.
+  Json longer = json;
+  longer["bodies"]["a"]["nodes"].push_back(
+      {{"name", "left_finger"}, {"parent", "left_hand"}, {"link", "left_finger"}});
+  longer["bodies"]["a"]["radius"]["left_finger"] = 0.01;
+  longer["bodies"]["a"]["length"]["left_finger"] = 0.04;
+  const solver::MeasureSubject grown = SubjectFromJson(longer, "r.json");
+  EXPECT_EQ(grown.body[0].num_nodes(), subject.body[0].num_nodes() + 1);
+  EXPECT_EQ(grown.length[0].back(), 0.04);
+  EXPECT_EQ(solver::TrackedJoints(grown.body[0]).size(),
+            solver::TrackedJoints(subject.body[0]).size() + 1);
+  Json astray = json;
+  astray["holds"][0]["from"]["node"] = "tail";
+  EXPECT_THROW(SubjectFromJson(astray, "r.json"), InputError);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(StudioSession, EveryOperationIsThatOfTheCore) {
        posing::SetRootLeader{1, RootLeader::kPartner}},
       {{{"op", "set_tangles"},
         {"tangles", {{{"a", {"left_hand", "root"}}, {"b", {"root", "head_top"}}}}}},
-       posing::SetTangles{{{{0, hand}, {0, head}, std::nullopt, std::nullopt}}}},
+       posing::SetTangles{{{{0, hand}, {0, head}}}}},
       {{{"op", "set_name"}, {"name", "a \"name\": #1"}}, posing::SetName{"a \"name\": #1"}},
       {{{"op", "set_description"}, {"description", "two\nlines"}},
        posing::SetDescription{"two\nlines"}},
@@ -351,8 +351,7 @@ TEST(PoseQueries, LiveTagsAreThoseOfTheFullAnswer) {
   posing::QueriesJson(posture, &tags);
   ASSERT_EQ(tags.size(), 2u);
   posture.pose[0].root_position += Vec3(0.01, 0.01, 0);
-  posture.tangles = {{tags[0].tangle.a, tags[0].tangle.b, std::nullopt, std::nullopt},
-                     {tags[1].tangle.a, tags[1].tangle.b, std::nullopt, std::nullopt}};
+  posture.tangles = {{tags[0].tangle.a, tags[0].tangle.b}, {tags[1].tangle.a, tags[1].tangle.b}};
   const report::Json live = posing::LiveQueriesJson(posture, tags),
                      full = posing::QueriesJson(posture);
   for (int k = 0; k < 2; ++k) {

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
                 result.metrics.smallest_gli, 100 * result.metrics.penetration_m,
                 result.File("scene.glb").size());
     for (const auto& check : result.requirements) {
-      if (!check.met) std::printf("missed: %s\n", check.name.c_str());
+      if (!check.met) std::printf("missed: %s\n", retarget::RequirementName(check).c_str());
     }
     return retarget::ExitCodeOf(result.status);
   } catch (const retarget::InputError& error) {

@@ -8,7 +8,10 @@ export class Clock {
   private last = 0;
   private listeners: (() => void)[] = [];
 
-  constructor(readonly frames: number, readonly fps: number) {}
+  constructor(
+    readonly frames: number,
+    readonly fps: number,
+  ) {}
 
   get frame(): number {
     return Math.min(this.frames - 1, Math.floor(this.time + 1e-9));

@@ -1,5 +1,8 @@
 // What the page holds: report.json, the series by frame, and the scenes (docs/report.md).
 
+import type { PerFigure } from "../shared/names";
+import type { Requirement, RequirementKind } from "../shared/requirement";
+
 export const variants = ["source", "baseline", "result"] as const;
 export type Variant = (typeof variants)[number];
 export const variantTitle: Record<Variant, string> = {
@@ -12,8 +15,6 @@ export const variantMeaning: Record<Variant, string> = {
   baseline: "forward simulation",
   result: "solved",
 };
-export type FigureName = "a" | "b";
-type PerFigure<T> = { a: T; b: T };
 
 export interface Series {
   tangles: number[][]; // [tags][frames], s GLI, turns
@@ -35,15 +36,6 @@ export interface AllSeries {
   result: Series;
 }
 
-export interface Requirement {
-  name: string;
-  value: number;
-  limit: number;
-  unit: string;
-  met: boolean;
-  where: string;
-}
-
 // The part of report.json that the page computes with; the tables are in the page already.
 export interface Report {
   tangles: { a: [string, string]; b: [string, string]; template_gli: number }[];
@@ -52,7 +44,12 @@ export interface Report {
   requirements: Requirement[];
   simulation?: null | { status: string; message: string };
   solve: {
-    history: { stage: number; iteration: number; cost: number; terms?: Record<string, number> }[];
+    history: {
+      stage: number;
+      iteration: number;
+      cost: number;
+      terms?: Record<string, number>;
+    }[];
   };
 }
 
@@ -79,14 +76,20 @@ export function readScene(variant: Variant): ArrayBuffer | null {
   return bytes.buffer;
 }
 
-// The limit of the first requirement of that name.
-export function limitOf(report: Report, name: string, otherwise: number): number {
-  return report.requirements.find((r) => r.name.startsWith(name))?.limit ?? otherwise;
+// The limit of the first requirement of that kind, and of that tag or hold where it is given.
+export function limitOf(
+  report: Report,
+  kind: RequirementKind,
+  otherwise: number,
+  item?: number,
+): number {
+  const isAsked = (r: Requirement) => r.kind === kind && (item === undefined || r.item === item);
+  return report.requirements.find(isAsked)?.limit ?? otherwise;
 }
 
 // Largest of several series, frame by frame.
 export function largest(rows: number[][], frames: number): number[] {
-  return Array.from({ length: frames }, (_, t) => rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0));
+  return Array.from({ length: frames }, (_, t) =>
+    rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0),
+  );
 }
-
-export const words = (name: string) => name.replace(/_/g, " ");

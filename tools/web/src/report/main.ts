@@ -33,7 +33,10 @@ function onKey(event: KeyboardEvent, clock: Clock): void {
   const target = event.target as HTMLElement;
   const types = target instanceof HTMLInputElement ? target.type : "";
   const usesArrows = target instanceof HTMLSelectElement || types === "radio" || types === "range";
-  const usesSpace = target instanceof HTMLSelectElement || types === "checkbox" || types === "radio" ||
+  const usesSpace =
+    target instanceof HTMLSelectElement ||
+    types === "checkbox" ||
+    types === "radio" ||
     target.closest("button, summary") !== null;
   const step = event.shiftKey ? 10 : 1;
   if (event.key === " " && !usesSpace) clock.toggle();
@@ -52,9 +55,15 @@ async function start(): Promise<void> {
   byId("stage-space").hidden = false;
   const players = new Players(byId("panels"), report, series, clock);
   window.retargetReport = {
-    get frame() { return clock.frame; },
-    get ready() { return ready; },
-    get readyMs() { return readyMs; },
+    get frame() {
+      return clock.frame;
+    },
+    get ready() {
+      return ready;
+    },
+    get readyMs() {
+      return readyMs;
+    },
     seek: (frame) => clock.seek(frame),
     playerNodePosition: (which, node) => players.nodePosition(which, node),
     playerTagGli: (which, tag) => players.tagGli(which, tag),

@@ -4,7 +4,8 @@ import { Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry } from "th
 import { findNode, parentOf } from "../shared/body";
 import { middleOfClosest } from "../shared/closest";
 import { okabeIto } from "../shared/colours";
-import { figureNames, type FigureScene } from "../shared/figure_scene";
+import type { FigureScene } from "../shared/figure_scene";
+import { figureNames, type FigureName } from "../shared/names";
 import type { Report, Series } from "./data";
 
 const kShownFrom = 0.05; // cm; less is numerical contact
@@ -12,7 +13,7 @@ const kShownFrom = 0.05; // cm; less is numerical contact
 interface Contact {
   first: number;
   last: number;
-  figure: "a" | "b";
+  figure: FigureName;
   node: number;
   disc: Mesh;
 }
@@ -22,7 +23,9 @@ export class Marks {
   private readonly ball = new Group();
 
   constructor(
-    private readonly figures: FigureScene, private readonly series: Series, report: Report,
+    private readonly figures: FigureScene,
+    private readonly series: Series,
+    report: Report,
   ) {
     const geometry = new RingGeometry(0.055, 0.085, 24).rotateX(-Math.PI / 2);
     const material = new MeshBasicMaterial({ color: okabeIto.green });
@@ -34,10 +37,17 @@ export class Marks {
       }
     }
     // Seen through the bodies: the place is inside of them.
-    const seen = (opacity: number) => new MeshBasicMaterial(
-      { color: okabeIto.vermilion, transparent: true, opacity, depthTest: false });
-    this.ball.add(new Mesh(new SphereGeometry(1, 20, 12), seen(0.35)),
-      new Mesh(new SphereGeometry(0.5, 20, 12), seen(0.95)));
+    const seen = (opacity: number) =>
+      new MeshBasicMaterial({
+        color: okabeIto.vermilion,
+        transparent: true,
+        opacity,
+        depthTest: false,
+      });
+    this.ball.add(
+      new Mesh(new SphereGeometry(1, 20, 12), seen(0.35)),
+      new Mesh(new SphereGeometry(0.5, 20, 12), seen(0.95)),
+    );
     figures.scene.add(this.ball);
   }
 
@@ -53,9 +63,15 @@ export class Marks {
     this.ball.visible = pair != null && depth > kShownFrom;
     if (!pair || !this.ball.visible) return;
     const [a, b] = pair.map(findNode);
-    const point = (figure: "a" | "b", node: number) => this.figures.point(figure, node);
-    this.ball.position.copy(middleOfClosest(
-      point("a", parentOf[a]), point("a", a), point("b", parentOf[b]), point("b", b)));
+    const point = (figure: FigureName, node: number) => this.figures.point(figure, node);
+    this.ball.position.copy(
+      middleOfClosest(
+        point("a", parentOf[a]),
+        point("a", a),
+        point("b", parentOf[b]),
+        point("b", b),
+      ),
+    );
     this.ball.scale.setScalar(0.035 + 0.01 * Math.min(depth, 10));
   }
 }

@@ -1,20 +1,25 @@
 // Three players side by side: source, simulated baseline, result.
 
-import { findNode, numSegments, pathSigns } from "../shared/body";
-import { figureColour, heatStops, mix, ramp, rgbOf, type Rgb } from "../shared/colours";
+import { findNode, pathSigns } from "../shared/body";
 import { element } from "../shared/dom";
-import { figureNames, FigureScene } from "../shared/figure_scene";
-import { gliTable, heat, pathGli } from "../shared/gli";
-import { isDark, onThemeChange } from "../shared/theme";
+import { FigureScene } from "../shared/figure_scene";
+import { gliTable, heat, kTangled, pathGli } from "../shared/gli";
+import { limbColours } from "../shared/limb_colours";
+import { figureNames } from "../shared/names";
+import { onThemeChange } from "../shared/theme";
 import { Viewer } from "../shared/viewer";
 import type { Clock } from "./clock";
 import {
-  readScene, variantMeaning, variants, variantTitle, type AllSeries, type Report, type Series,
+  readScene,
+  variantMeaning,
+  variants,
+  variantTitle,
+  type AllSeries,
+  type Report,
+  type Series,
   type Variant,
 } from "./data";
 import { Marks } from "./marks";
-
-export const kHeatFull = 0.5; // turns at the end of the colour scale
 
 interface Player {
   variant: Variant;
@@ -41,8 +46,10 @@ export class Players {
   private readonly tags: Tag[];
 
   constructor(
-    private readonly container: HTMLElement, private readonly report: Report,
-    private readonly series: AllSeries, private readonly clock: Clock,
+    private readonly container: HTMLElement,
+    private readonly report: Report,
+    private readonly series: AllSeries,
+    private readonly clock: Clock,
   ) {
     this.tags = report.tangles.map(({ a, b, template_gli }) => ({
       a: pathSigns(findNode(a[0]), findNode(a[1])),
@@ -56,7 +63,13 @@ export class Players {
 
   private makePanel(variant: Variant): Player {
     const readout = element("p", { class: "readout" });
-    const title = element("h2", {}, variantTitle[variant], " ", element("small", {}, variantMeaning[variant]));
+    const title = element(
+      "h2",
+      {},
+      variantTitle[variant],
+      " ",
+      element("small", {}, variantMeaning[variant]),
+    );
     const panel = element("div", { class: "panel", "data-variant": variant }, title, readout);
     this.container.append(panel);
     return { variant, panel, readout, series: this.series[variant], figures: null, marks: null };
@@ -73,9 +86,14 @@ export class Players {
       this.viewer = new Viewer(this.container);
     } catch {
       document.documentElement.classList.add("no-webgl");
-      this.container.prepend(element("p", { class: "absent" },
-        "This browser offers no WebGL, so there are no players here. Plots and tables below are " +
-        "complete, and scene.glb opens in any glTF viewer."));
+      this.container.prepend(
+        element(
+          "p",
+          { class: "absent" },
+          "This browser offers no WebGL, so there are no players here. Plots and tables below are " +
+            "complete, and scene.glb opens in any glTF viewer.",
+        ),
+      );
       this.refresh();
       return;
     }
@@ -83,8 +101,10 @@ export class Players {
     for (const player of this.players) {
       const bytes = readScene(player.variant);
       if (!bytes || !player.series) {
-        this.say(player, this.report.simulation?.message ??
-          "This run has no simulated baseline to compare with.");
+        this.say(
+          player,
+          this.report.simulation?.message ?? "This run has no simulated baseline to compare with.",
+        );
         continue;
       }
       player.figures = await FigureScene.load(bytes);
@@ -115,14 +135,16 @@ export class Players {
     readout.replaceChildren();
     if (!series) return;
     const t = this.clock.frame;
-    const lost = series.tangles.flatMap((tag, k) => (tag[t] > 0.5 ? [] : [k]));
+    const lost = series.tangles.flatMap((tag, k) => (tag[t] > kTangled ? [] : [k]));
     const item = (text: string, bad: boolean) =>
       readout.append(element("span", { class: bad ? "bad" : "good" }, text));
     if (series.tangles.length > 0) {
-      item(lost.length === 0
-        ? "tangled"
-        : `lost: ${lost.map((k) => `tag ${k + 1} (${series.tangles[k][t].toFixed(2)})`).join(", ")}`,
-        lost.length > 0);
+      item(
+        lost.length === 0
+          ? "tangled"
+          : `lost: ${lost.map((k) => `tag ${k + 1} (${series.tangles[k][t].toFixed(2)})`).join(", ")}`,
+        lost.length > 0,
+      );
     }
     const depth = series.penetration_cm[t];
     if (depth > 0.05) item(`${depth.toFixed(1)} cm inside`, depth > 2);
@@ -149,19 +171,13 @@ export class Players {
   }
 
   private paint(figures: FigureScene): void {
-    const dim = rgbOf(isDark() ? "#3A424C" : "#C9CFD6");
-    const values = this.heatMap ? heat(gliTable(figures.positions("a"), figures.positions("b"))) : null;
+    const values = this.heatMap
+      ? heat(gliTable(figures.positions("a"), figures.positions("b")))
+      : null;
+    const tag = this.shownTag === null ? null : this.tags[this.shownTag];
     figureNames.forEach((figure, f) => {
-      const plain = rgbOf(figureColour[figure]);
-      const colours: Rgb[] = [];
-      for (let s = 0; s < numSegments; ++s) {
-        let colour = values ? ramp(heatStops[figure], values[f][s] / kHeatFull) : plain;
-        if (this.shownTag !== null && this.tags[this.shownTag][figure][s] === 0) {
-          colour = mix(colour, dim, 0.9);
-        }
-        colours.push(colour);
-      }
-      figures.paint(figure, colours);
+      const off = (s: number) => tag !== null && tag[figure][s] === 0;
+      figures.paint(figure, limbColours(figure, values && values[f], off, 0.9));
     });
   }
 

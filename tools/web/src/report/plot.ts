@@ -38,7 +38,11 @@ function swatch({ colour, dash, width }: Line): SVGSVGElement {
   svg.setAttribute("viewBox", "0 0 22 8");
   const line = document.createElementNS(ns, "line");
   const attributes: Record<string, string> = {
-    x1: "0", x2: "22", y1: "4", y2: "4", "stroke-width": String(width ?? 2),
+    x1: "0",
+    x2: "22",
+    y1: "4",
+    y2: "4",
+    "stroke-width": String(width ?? 2),
     "stroke-dasharray": (dash ?? []).join(" "),
   };
   for (const [key, value] of Object.entries(attributes)) line.setAttribute(key, value);
@@ -84,10 +88,13 @@ function axes(options: PlotOptions): uPlot.Axis[] {
     ticks: { show: false },
     font: "11px system-ui, sans-serif",
   };
-  const whole = [1, 2, 5].flatMap((m) => [0, 1, 2, 3, 4].map((e) => m * 10 ** e)).sort((a, b) => a - b);
+  const whole = [1, 2, 5]
+    .flatMap((m) => [0, 1, 2, 3, 4].map((e) => m * 10 ** e))
+    .sort((a, b) => a - b);
   const y: uPlot.Axis = { ...common, size: 46, space: 26 };
   if (options.logarithmic) {
-    y.values = (_, splits) => splits.map((v) => (v !== null && /^1/.test(v.toExponential()) ? String(v) : ""));
+    y.values = (_, splits) =>
+      splits.map((v) => (v !== null && /^1/.test(v.toExponential()) ? String(v) : ""));
   }
   return [{ ...common, size: 24, incrs: whole, space: 60 }, y];
 }
@@ -110,11 +117,25 @@ function scrubWith(u: uPlot, clock: Clock): void {
 export function addPlot(container: HTMLElement, options: PlotOptions): uPlot {
   const { clock, lines, unit, digits } = options;
   const values = lines.map(() => element("b"));
-  const key = element("p", { class: "key" },
-    ...lines.map((line, k) => element("span", {}, swatch(line), ` ${line.label} `, values[k])));
+  const key = element(
+    "p",
+    { class: "key" },
+    ...lines.map((line, k) => element("span", {}, swatch(line), ` ${line.label} `, values[k])),
+  );
   const host = element("div", { class: "plot-host" });
-  container.append(element("figure", { class: "plot", "data-plot": options.title },
-    element("figcaption", {}, element("h3", {}, options.title, " ", element("small", {}, unit)), key), host));
+  container.append(
+    element(
+      "figure",
+      { class: "plot", "data-plot": options.title },
+      element(
+        "figcaption",
+        {},
+        element("h3", {}, options.title, " ", element("small", {}, unit)),
+        key,
+      ),
+      host,
+    ),
+  );
 
   const count = lines[0].values.length;
   const x = Array.from({ length: count }, (_, k) => k + (clock ? 0 : 1));
@@ -122,40 +143,51 @@ export function addPlot(container: HTMLElement, options: PlotOptions): uPlot {
     const at = index ?? clock?.frame ?? count - 1;
     lines.forEach((line, k) => {
       const value = line.values[at];
-      values[k].textContent = value == null ? "–" : options.logarithmic ? value.toPrecision(3) : value.toFixed(digits);
+      values[k].textContent =
+        value == null ? "–" : options.logarithmic ? value.toPrecision(3) : value.toFixed(digits);
     });
   };
-  const u = new uPlot({
-    width: Math.max(200, host.clientWidth),
-    height: kHeight,
-    legend: { show: false },
-    padding: [8, 12, 0, 0],
-    cursor: {
-      drag: { x: false, y: false },
-      points: { size: 6 },
-      y: false,
-      ...(clock ? { sync: { key: sync.key } } : {}),
-    },
-    scales: {
-      x: { time: false, range: (_, least, most) => (most > least ? [least, most] : [least - 0.5, least + 0.5]) },
-      y: {
-        range: (_, least, most) => options.range(least ?? 0, most ?? 1),
-        ...(options.logarithmic ? { distr: 3 as const, log: 10 as const } : {}),
+  const u = new uPlot(
+    {
+      width: Math.max(200, host.clientWidth),
+      height: kHeight,
+      legend: { show: false },
+      padding: [8, 12, 0, 0],
+      cursor: {
+        drag: { x: false, y: false },
+        points: { size: 6 },
+        y: false,
+        ...(clock ? { sync: { key: sync.key } } : {}),
+      },
+      scales: {
+        x: {
+          time: false,
+          range: (_, least, most) => (most > least ? [least, most] : [least - 0.5, least + 0.5]),
+        },
+        y: {
+          range: (_, least, most) => options.range(least ?? 0, most ?? 1),
+          ...(options.logarithmic ? { distr: 3 as const, log: 10 as const } : {}),
+        },
+      },
+      axes: axes(options),
+      series: [
+        {},
+        ...lines.map((line): uPlot.Series => ({
+          stroke: () => colourOf(line.colour),
+          width: line.width ?? 2,
+          dash: line.dash,
+          points: { show: count < 2 },
+          spanGaps: false,
+        })),
+      ],
+      hooks: {
+        draw: [(self) => drawGuides(self, options)],
+        setCursor: [(self) => tell(self.cursor.idx)],
       },
     },
-    axes: axes(options),
-    series: [{}, ...lines.map((line): uPlot.Series => ({
-      stroke: () => colourOf(line.colour),
-      width: line.width ?? 2,
-      dash: line.dash,
-      points: { show: count < 2 },
-      spanGaps: false,
-    }))],
-    hooks: {
-      draw: [(self) => drawGuides(self, options)],
-      setCursor: [(self) => tell(self.cursor.idx)],
-    },
-  }, [x, ...lines.map((line) => line.values)] as uPlot.AlignedData, host);
+    [x, ...lines.map((line) => line.values)] as uPlot.AlignedData,
+    host,
+  );
 
   tell(null);
   new ResizeObserver(() => {

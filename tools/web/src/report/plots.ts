@@ -1,9 +1,17 @@
 // Which plots the report shows, and of what.
 
+import { kTangled } from "../shared/gli";
+import { words } from "../shared/names";
 import { addPlot, type Line } from "./plot";
 import type { Clock } from "./clock";
 import {
-  largest, limitOf, variants, variantTitle, words, type AllSeries, type Report, type Series,
+  largest,
+  limitOf,
+  variants,
+  variantTitle,
+  type AllSeries,
+  type Report,
+  type Series,
 } from "./data";
 
 const kLook = {
@@ -12,23 +20,36 @@ const kLook = {
   result: { colour: "--result", width: 2.25 },
 };
 const kTermColours = [
-  "--ink", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "--muted",
+  "--ink",
+  "#0072B2",
+  "#D55E00",
+  "#009E73",
+  "#CC79A7",
+  "#E69F00",
+  "#56B4E9",
+  "--muted",
 ];
 
 function linesOf(series: AllSeries, values: (s: Series) => number[]): Line[] {
-  return variants.filter((v) => series[v]).map((v) => ({
-    label: variantTitle[v].toLowerCase(),
-    values: values(series[v]!),
-    ...kLook[v],
-  }));
+  return variants
+    .filter((v) => series[v])
+    .map((v) => ({
+      label: variantTitle[v].toLowerCase(),
+      values: values(series[v]!),
+      ...kLook[v],
+    }));
 }
 
 // From zero to a little over the largest value and over the limit.
-const fromZero = (limit: number) => (_: number, most: number): [number, number] =>
-  [0, 1.15 * Math.max(most, limit)];
+const fromZero =
+  (limit: number) =>
+  (_: number, most: number): [number, number] => [0, 1.15 * Math.max(most, limit)];
 
 export function addPlots(
-  container: HTMLElement, report: Report, series: AllSeries, clock: Clock,
+  container: HTMLElement,
+  report: Report,
+  series: AllSeries,
+  clock: Clock,
 ): void {
   report.tangles.forEach(({ a, b }, k) => {
     addPlot(container, {
@@ -36,7 +57,10 @@ export function addPlots(
       unit: `turns; a ${words(a[0])} … ${words(a[1])} × b ${words(b[0])} … ${words(b[1])}`,
       lines: linesOf(series, (s) => s.tangles[k]),
       digits: 2,
-      limit: { value: limitOf(report, `tangle ${k + 1}`, 0.5), text: "lost below" },
+      limit: {
+        value: limitOf(report, "tangle", kTangled, k),
+        text: "lost below",
+      },
       range: (least, most) => [Math.min(0, least * 1.1), Math.max(1.05, most * 1.05)],
       clock,
     });
@@ -52,10 +76,17 @@ export function addPlots(
       clock,
     });
   const both = (s: { a: number[]; b: number[] }) => largest([s.a, s.b], series.frames);
-  centimetres("Penetration between the bodies", (s) => s.penetration_cm,
-    100 * limitOf(report, "penetration", 0.02));
+  centimetres(
+    "Penetration between the bodies",
+    (s) => s.penetration_cm,
+    100 * limitOf(report, "penetration", 0.02),
+  );
   if (series.result.hold_cm.length > 0) {
-    centimetres("Hold error", (s) => largest(s.hold_cm, series.frames), 100 * limitOf(report, "hold", 0.02));
+    centimetres(
+      "Hold error",
+      (s) => largest(s.hold_cm, series.frames),
+      100 * limitOf(report, "hold", 0.02),
+    );
   }
   addPlot(container, {
     title: "Speed of planted feet",
@@ -79,11 +110,17 @@ export function addCost(container: HTMLElement, report: Report): void {
       peak.set(term, Math.max(peak.get(term) ?? 0, cost));
     }
   }
-  const parts = [...peak.keys()].sort((x, y) => peak.get(y)! - peak.get(x)!)
+  const parts = [...peak.keys()]
+    .sort((x, y) => peak.get(y)! - peak.get(x)!)
     .slice(0, kTermColours.length - 1);
   const positive = (value?: number) => (value !== undefined && value > 0 ? value : null);
   const lines: Line[] = [
-    { label: "total", values: history.map((h) => positive(h.cost)), colour: "--ink", width: 2.5 },
+    {
+      label: "total",
+      values: history.map((h) => positive(h.cost)),
+      colour: "--ink",
+      width: 2.5,
+    },
     ...parts.map((term, k) => ({
       label: words(term),
       values: history.map((h) => positive(h.terms?.[term])),
@@ -92,15 +129,23 @@ export function addCost(container: HTMLElement, report: Report): void {
       width: 1.75,
     })),
   ];
-  const stages = history.flatMap((h, k) => (k > 0 && h.stage !== history[k - 1].stage ? [k + 0.5] : []));
+  const stages = history.flatMap((h, k) =>
+    k > 0 && h.stage !== history[k - 1].stage ? [k + 0.5] : [],
+  );
   addPlot(container, {
     title: "Cost by term",
-    unit: stages.length > 0 ? "per iteration, logarithmic; dotted: contact weights rise" : "per iteration, logarithmic",
+    unit:
+      stages.length > 0
+        ? "per iteration, logarithmic; dotted: contact weights rise"
+        : "per iteration, logarithmic",
     lines,
     digits: 2,
     range: (_, most) => {
       const floor = Math.max(Math.min(...history.map((h) => h.cost)) * 1e-3, 1e-6);
-      return [10 ** Math.floor(Math.log10(floor)), 10 ** Math.ceil(Math.log10(Math.max(most, 10 * floor)))];
+      return [
+        10 ** Math.floor(Math.log10(floor)),
+        10 ** Math.ceil(Math.log10(Math.max(most, 10 * floor))),
+      ];
     },
     marks: stages,
     logarithmic: true,

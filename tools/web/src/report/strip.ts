@@ -3,9 +3,11 @@
 
 import { cssOf, ramp, sequential } from "../shared/colours";
 import { element, fitCanvas } from "../shared/dom";
+import { colourScale } from "../shared/legend";
+import { figureNames, words, type FigureName } from "../shared/names";
 import { isDark, onThemeChange, themeColour } from "../shared/theme";
 import type { Clock } from "./clock";
-import { variantTitle, words, type AllSeries } from "./data";
+import { variantTitle, type AllSeries } from "./data";
 
 const kRow = 13; // px
 const kNames = 92; // px for the joints' names
@@ -19,25 +21,51 @@ function roundUp(most: number): number {
 
 export class TrackingStrip {
   private shown: Edited = "result";
-  private readonly canvases: { figure: "a" | "b"; canvas: HTMLCanvasElement; playhead: HTMLElement }[];
+  private readonly canvases: {
+    figure: FigureName;
+    canvas: HTMLCanvasElement;
+    playhead: HTMLElement;
+  }[];
   private readonly note = element("small");
   private readonly scale = element("span", { class: "legend" });
 
   constructor(
-    container: HTMLElement, private readonly series: AllSeries, private readonly clock: Clock,
+    container: HTMLElement,
+    private readonly series: AllSeries,
+    private readonly clock: Clock,
   ) {
-    this.canvases = (["a", "b"] as const).map((figure) => ({
+    this.canvases = figureNames.map((figure) => ({
       figure,
       canvas: element("canvas", { role: "img", "aria-label": `tracking error of ${figure}` }),
       playhead: element("i", { class: "playhead" }),
     }));
     const strips = this.canvases.map(({ figure, canvas, playhead }) =>
-      element("div", { class: "strip" }, element("h4", { class: `figure-${figure}` }, figure), canvas, playhead));
-    container.append(element("figure", { class: "plot wide", "data-plot": "Tracking error" },
-      element("figcaption", {},
-        element("h3", {}, "Tracking error ", element("small", {}, "degrees from the source, by joint and frame")),
-        element("p", { class: "key" }, this.choice(), this.scale, this.note)),
-      element("div", { class: "strips" }, ...strips)));
+      element(
+        "div",
+        { class: "strip" },
+        element("h4", { class: `figure-${figure}` }, figure),
+        canvas,
+        playhead,
+      ),
+    );
+    container.append(
+      element(
+        "figure",
+        { class: "plot wide", "data-plot": "Tracking error" },
+        element(
+          "figcaption",
+          {},
+          element(
+            "h3",
+            {},
+            "Tracking error ",
+            element("small", {}, "degrees from the source, by joint and frame"),
+          ),
+          element("p", { class: "key" }, this.choice(), this.scale, this.note),
+        ),
+        element("div", { class: "strips" }, ...strips),
+      ),
+    );
     for (const strip of this.canvases) this.watch(strip);
     clock.onChange(() => this.placePlayheads());
     onThemeChange(() => this.draw());
@@ -49,7 +77,11 @@ export class TrackingStrip {
   }
 
   private choice(): HTMLElement {
-    const group = element("span", { class: "group", role: "radiogroup", "aria-label": "tracking error of" });
+    const group = element("span", {
+      class: "group",
+      role: "radiogroup",
+      "aria-label": "tracking error of",
+    });
     for (const variant of ["baseline", "result"] as const) {
       if (!this.series[variant]?.tracking_deg) continue;
       const radio = element("input", { type: "radio", name: "tracking" });
@@ -63,15 +95,21 @@ export class TrackingStrip {
     return group;
   }
 
-  private watch({ figure, canvas }: { figure: "a" | "b"; canvas: HTMLCanvasElement }): void {
+  private watch({ figure, canvas }: { figure: FigureName; canvas: HTMLCanvasElement }): void {
     const { joints } = this.tracking[figure];
     canvas.style.height = `${joints.length * kRow}px`;
     new ResizeObserver(() => this.draw()).observe(canvas);
     const at = (event: PointerEvent) => {
       const box = canvas.getBoundingClientRect();
       const part = (event.clientX - box.left - kNames) / (box.width - kNames - kRight);
-      const frame = Math.min(this.clock.frames - 1, Math.max(0, Math.floor(part * this.clock.frames)));
-      const joint = Math.min(joints.length - 1, Math.max(0, Math.floor((event.clientY - box.top) / kRow)));
+      const frame = Math.min(
+        this.clock.frames - 1,
+        Math.max(0, Math.floor(part * this.clock.frames)),
+      );
+      const joint = Math.min(
+        joints.length - 1,
+        Math.max(0, Math.floor((event.clientY - box.top) / kRow)),
+      );
       return { frame, joint };
     };
     canvas.addEventListener("pointerdown", (event) => {
@@ -94,8 +132,7 @@ export class TrackingStrip {
       return tracking ? [...tracking.a.values, ...tracking.b.values] : [];
     });
     const most = roundUp(all.reduce((m, row) => row.reduce((n, x) => Math.max(n, x), m), 0));
-    this.scale.replaceChildren("0°",
-      element("i", { style: `background:linear-gradient(90deg,${stops.map(cssOf).join(",")})` }), `${most}°`);
+    this.scale.replaceChildren(...colourScale("0°", stops.map(cssOf), `${most}°`));
     for (const { figure, canvas } of this.canvases) {
       const { joints, values } = this.tracking[figure];
       const context = fitCanvas(canvas);
@@ -106,7 +143,9 @@ export class TrackingStrip {
       context.font = "11px system-ui, sans-serif";
       context.textAlign = "right";
       context.textBaseline = "middle";
-      joints.forEach((name, k) => context.fillText(words(name), kNames - 6, (k + 0.5) * kRow, kNames - 8));
+      joints.forEach((name, k) =>
+        context.fillText(words(name), kNames - 6, (k + 0.5) * kRow, kNames - 8),
+      );
     }
     this.placePlayheads();
   }
@@ -119,10 +158,12 @@ export class TrackingStrip {
     canvas.height = values.length;
     const context = canvas.getContext("2d")!;
     const pixels = context.createImageData(canvas.width, canvas.height);
-    values.forEach((row, joint) => row.forEach((value, t) => {
-      const [r, g, b] = ramp(stops, value / most);
-      pixels.data.set([255 * r, 255 * g, 255 * b, 255], 4 * (joint * canvas.width + t));
-    }));
+    values.forEach((row, joint) =>
+      row.forEach((value, t) => {
+        const [r, g, b] = ramp(stops, value / most);
+        pixels.data.set([255 * r, 255 * g, 255 * b, 255], 4 * (joint * canvas.width + t));
+      }),
+    );
     context.putImageData(pixels, 0, 0);
     return canvas;
   }

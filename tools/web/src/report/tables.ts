@@ -6,16 +6,21 @@ import type { Transport } from "./transport";
 
 export function enliven(clock: Clock, transport: Transport): void {
   for (const span of document.querySelectorAll<HTMLElement>("span[data-frame]")) {
-    const jump = element("button", { type: "button", class: "jump", title: "show this frame" },
-      ...span.childNodes);
+    const jump = element(
+      "button",
+      { type: "button", class: "jump", title: "show this frame" },
+      ...span.childNodes,
+    );
     jump.addEventListener("click", () => clock.seek(Number(span.dataset.frame)));
     span.replaceChildren(jump);
   }
   for (const row of document.querySelectorAll<HTMLElement>("tr[data-tag]")) {
     const tag = Number(row.dataset.tag);
     row.tabIndex = 0;
-    for (const event of ["mouseenter", "focusin"]) row.addEventListener(event, () => transport.showTag(tag));
-    for (const event of ["mouseleave", "focusout"]) row.addEventListener(event, () => transport.showTag(null));
+    for (const event of ["mouseenter", "focusin"])
+      row.addEventListener(event, () => transport.showTag(tag));
+    for (const event of ["mouseleave", "focusout"])
+      row.addEventListener(event, () => transport.showTag(null));
   }
 }
 

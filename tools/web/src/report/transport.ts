@@ -1,13 +1,15 @@
 // The bar under the players: play, step, speed, loop, views, heat map, tags, and the scrub bar with
 // what happens when.
 
-import { cssOf, heatStops, ramp } from "../shared/colours";
 import { element, fitCanvas } from "../shared/dom";
+import { kTangled } from "../shared/gli";
+import { heatScale } from "../shared/legend";
+import { words } from "../shared/names";
 import { onThemeChange, themeColour } from "../shared/theme";
 import { views, type View } from "../shared/viewer";
 import type { Clock } from "./clock";
-import { variants, variantTitle, words, type AllSeries, type Report } from "./data";
-import { kHeatFull, type Players } from "./players";
+import { variants, variantTitle, type AllSeries, type Report } from "./data";
+import type { Players } from "./players";
 
 const kThumb = 12; // px, as in the style sheet
 const kRow = 9; // px per variant in the track
@@ -25,7 +27,12 @@ function checkbox(label: string, title: string, on: boolean, act: (on: boolean) 
   return { box, label: element("label", { title }, box, ` ${label}`) };
 }
 
-function select(title: string, options: [string, string][], value: string, act: (v: string) => void) {
+function select(
+  title: string,
+  options: [string, string][],
+  value: string,
+  act: (v: string) => void,
+) {
   const made = element("select", { title, "aria-label": title });
   for (const [key, text] of options) made.append(element("option", { value: key }, text));
   made.value = value;
@@ -43,30 +50,48 @@ export class Transport {
   private pinnedTag: number | null = null;
 
   constructor(
-    container: HTMLElement, private readonly report: Report, private readonly series: AllSeries,
-    private readonly clock: Clock, private readonly players: Players,
+    container: HTMLElement,
+    private readonly report: Report,
+    private readonly series: AllSeries,
+    private readonly clock: Clock,
+    private readonly players: Players,
   ) {
     this.range = element("input", {
-      type: "range", min: "0", max: String(clock.frames - 1), step: "1", value: "0",
-      "aria-label": "frame", class: "scrub",
+      type: "range",
+      min: "0",
+      max: String(clock.frames - 1),
+      step: "1",
+      value: "0",
+      "aria-label": "frame",
+      class: "scrub",
     });
     this.range.addEventListener("input", () => clock.seek(Number(this.range.value)));
     this.play = button("Play", "play or pause (space)", () => clock.toggle());
     this.play.className = "play";
-    const heat = checkbox("GLI heat map", "colour each limb by how much it is wound round the other body",
-      false, (on) => {
+    const heat = checkbox(
+      "GLI heat map",
+      "colour each limb by how much it is wound round the other body",
+      false,
+      (on) => {
         players.heatMap = on;
         legend.hidden = !on;
         players.refresh();
-      });
+      },
+    );
     this.heat = heat.box;
     const legend = this.makeLegend();
     heat.label.className = "needs-players";
     this.tags = report.tangles.map((_, k) => this.makeTag(k));
     container.append(
       this.makeScrub(),
-      element("div", { class: "controls" }, ...this.makeControls(), heat.label, legend,
-        ...(this.tags.length > 0 ? [element("span", { class: "tags" }, ...this.tags)] : [])),
+      element(
+        "div",
+        { class: "controls" },
+        ...this.makeControls(),
+        heat.label,
+        legend,
+        ...(this.tags.length > 0 ? [element("span", { class: "tags" }, ...this.tags)] : []),
+      ),
     );
     clock.onChange(() => this.refresh());
     onThemeChange(() => this.draw());
@@ -76,7 +101,13 @@ export class Transport {
 
   private makeControls(): HTMLElement[] {
     const { clock, players } = this;
-    const speeds: [string, string][] = [["0.1", "0.1x"], ["0.25", "0.25x"], ["0.5", "0.5x"], ["1", "1x"], ["2", "2x"]];
+    const speeds: [string, string][] = [
+      ["0.1", "0.1x"],
+      ["0.25", "0.25x"],
+      ["0.5", "0.5x"],
+      ["1", "1x"],
+      ["2", "2x"],
+    ];
     const group = (...items: HTMLElement[]) => element("span", { class: "group" }, ...items);
     const playing = group(
       select("speed", speeds, "1", (v) => (clock.speed = Number(v))),
@@ -84,8 +115,9 @@ export class Transport {
     );
     const names = Object.keys(views).map((v) => [v, v] as [string, string]);
     const camera = group(
-      select("view; drag to orbit, Ctrl + wheel to zoom", names, "three-quarter",
-        (v) => players.view?.look(v as View)),
+      select("view; drag to orbit, Ctrl + wheel to zoom", names, "three-quarter", (v) =>
+        players.view?.look(v as View),
+      ),
       button("+", "closer (Ctrl + wheel)", () => players.view?.zoom(0.8)),
       button("−", "further (Ctrl + wheel)", () => players.view?.zoom(1.25)),
       checkbox("follow", "the camera goes with the pair", true, (on) => {
@@ -98,9 +130,11 @@ export class Transport {
   }
 
   private makeLegend(): HTMLElement {
-    const stops = [0, 1, 2, 3, 4].map((k) => cssOf(ramp(heatStops.a, k / 4))).join(",");
-    const legend = element("span", { class: "legend", title: "sum of |GLI| over the other body's segments" },
-      "0", element("i", { style: `background:linear-gradient(90deg,${stops})` }), `${kHeatFull} turns`);
+    const legend = element(
+      "span",
+      { class: "legend", title: "sum of |GLI| over the other body's segments" },
+      ...heatScale(),
+    );
     legend.hidden = true;
     return legend;
   }
@@ -108,14 +142,19 @@ export class Transport {
   // Pointing at a tag shows it on the bodies; clicking keeps it shown.
   private makeTag(k: number): HTMLButtonElement {
     const { a, b } = this.report.tangles[k];
-    const chip = button(`tag ${k + 1}`,
-      `a: ${words(a[0])} to ${words(a[1])}, tangled with b: ${words(b[0])} to ${words(b[1])}`, () => {
+    const chip = button(
+      `tag ${k + 1}`,
+      `a: ${words(a[0])} to ${words(a[1])}, tangled with b: ${words(b[0])} to ${words(b[1])}`,
+      () => {
         this.pinnedTag = this.pinnedTag === k ? null : k;
         this.showTag(this.pinnedTag);
-      });
+      },
+    );
     chip.classList.add("tag");
-    for (const event of ["mouseenter", "focus"]) chip.addEventListener(event, () => this.showTag(k));
-    for (const event of ["mouseleave", "blur"]) chip.addEventListener(event, () => this.showTag(null));
+    for (const event of ["mouseenter", "focus"])
+      chip.addEventListener(event, () => this.showTag(k));
+    for (const event of ["mouseleave", "blur"])
+      chip.addEventListener(event, () => this.showTag(null));
     return chip;
   }
 
@@ -132,12 +171,20 @@ export class Transport {
     for (const v of variants) {
       if (this.series[v]) labels.append(element("span", {}, variantTitle[v].toLowerCase()));
     }
-    const scrub = element("span", { class: "scrub-box", title: "dark: a tangle is lost; ✕: a limb passes through a limb" },
-      this.track, this.range);
+    const scrub = element(
+      "span",
+      { class: "scrub-box", title: "dark: a tangle is lost; ✕: a limb passes through a limb" },
+      this.track,
+      this.range,
+    );
     scrub.style.setProperty("--rows", String(variants.filter((v) => this.series[v]).length));
-    const keys = element("span", { class: "group" },
-      button("‹", "one frame back (left arrow)", () => this.clock.step(-1)), this.play,
-      button("›", "one frame on (right arrow)", () => this.clock.step(1)));
+    const keys = element(
+      "span",
+      { class: "group" },
+      button("‹", "one frame back (left arrow)", () => this.clock.step(-1)),
+      this.play,
+      button("›", "one frame on (right arrow)", () => this.clock.step(1)),
+    );
     return element("div", { class: "scrubber" }, keys, labels, scrub, this.counter);
   }
 
@@ -156,29 +203,36 @@ export class Transport {
     const frames = this.clock.frames;
     const x = (t: number) => kThumb / 2 + (width * t) / Math.max(1, frames - 1);
     const cell = width / Math.max(1, frames - 1);
-    variants.filter((v) => this.series[v]).forEach((variant, row) => {
-      const series = this.series[variant]!;
-      const top = row * kRow;
-      context.fillStyle = themeColour("--held");
-      context.fillRect(x(0), top + 1, width, kRow - 2);
-      context.fillStyle = themeColour("--bad");
-      for (let t = 0; t < frames; ++t) {
-        if (series.tangles.some((tag) => tag[t] <= 0.5)) {
-          const left = Math.max(x(0), x(t) - cell / 2);
-          context.fillRect(left, top + 1, Math.min(x(t) + cell / 2, x(frames - 1)) - left + 0.3, kRow - 2);
+    variants
+      .filter((v) => this.series[v])
+      .forEach((variant, row) => {
+        const series = this.series[variant]!;
+        const top = row * kRow;
+        context.fillStyle = themeColour("--held");
+        context.fillRect(x(0), top + 1, width, kRow - 2);
+        context.fillStyle = themeColour("--bad");
+        for (let t = 0; t < frames; ++t) {
+          if (series.tangles.some((tag) => tag[t] <= kTangled)) {
+            const left = Math.max(x(0), x(t) - cell / 2);
+            context.fillRect(
+              left,
+              top + 1,
+              Math.min(x(t) + cell / 2, x(frames - 1)) - left + 0.3,
+              kRow - 2,
+            );
+          }
         }
-      }
-      context.strokeStyle = themeColour("--ink");
-      context.lineWidth = 1.6;
-      for (const { frame } of series.pass_throughs) {
-        const [cx, cy, r] = [x(frame + 0.5), top + kRow / 2, 3.2];
-        context.beginPath();
-        context.moveTo(cx - r, cy - r);
-        context.lineTo(cx + r, cy + r);
-        context.moveTo(cx - r, cy + r);
-        context.lineTo(cx + r, cy - r);
-        context.stroke();
-      }
-    });
+        context.strokeStyle = themeColour("--ink");
+        context.lineWidth = 1.6;
+        for (const { frame } of series.pass_throughs) {
+          const [cx, cy, r] = [x(frame + 0.5), top + kRow / 2, 3.2];
+          context.beginPath();
+          context.moveTo(cx - r, cy - r);
+          context.lineTo(cx + r, cy + r);
+          context.moveTo(cx - r, cy + r);
+          context.lineTo(cx + r, cy - r);
+          context.stroke();
+        }
+      });
   }
 }

@@ -1,7 +1,7 @@
 // Closest points of two segments, for the mark where bodies touch (Ericson, Real-Time Collision
 // Detection, 2005, section 5.1.9).
 
-import { Vector3 } from "three";
+import { type Vector3 } from "three";
 
 const clamp01 = (x: number) => Math.min(1, Math.max(0, x));
 

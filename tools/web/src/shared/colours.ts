@@ -1,5 +1,7 @@
 // Colours that stay apart for every kind of colour vision (Okabe and Ito 2008).
 
+import type { PerFigure } from "./names";
+
 export const okabeIto = {
   black: "#000000",
   orange: "#E69F00",
@@ -11,7 +13,7 @@ export const okabeIto = {
   purple: "#CC79A7",
 };
 
-export const figureColour = { a: okabeIto.blue, b: okabeIto.orange };
+export const figureColour: PerFigure<string> = { a: okabeIto.blue, b: okabeIto.orange };
 
 export type Rgb = [number, number, number]; // sRGB, components in [0, 1]
 
@@ -36,7 +38,8 @@ export function ramp(stops: Rgb[], t: number): Rgb {
 }
 
 // Heat on the limbs: from a pale tint of the figure's own colour to one crimson, ever darker.
-export const heatStops: Record<"a" | "b", Rgb[]> = {
+export const kHeatFull = 0.5; // turns at the dark end
+export const heatStops: PerFigure<Rgb[]> = {
   a: ["#B4CEDF", "#E79AAE", "#D6336C", "#8E0B4A"].map(rgbOf),
   b: ["#EBDCB2", "#F0A79A", "#D6336C", "#8E0B4A"].map(rgbOf),
 };

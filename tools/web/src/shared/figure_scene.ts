@@ -2,18 +2,27 @@
 // segment by segment. Node names are those of the file: "a/left_wrist".
 
 import {
-  AnimationClip, AnimationMixer, BufferAttribute, Color, Mesh, MeshBasicMaterial,
-  MeshLambertMaterial, Object3D, Scene, SkinnedMesh, SRGBColorSpace, Vector3,
+  type AnimationClip,
+  AnimationMixer,
+  BufferAttribute,
+  Color,
+  type Mesh,
+  type MeshBasicMaterial,
+  MeshLambertMaterial,
+  type Object3D,
+  Scene,
+  SkinnedMesh,
+  SRGBColorSpace,
+  Vector3,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { nodeNames, numNodes, numSegments } from "./body";
 import type { Rgb } from "./colours";
+import { figureNames, type FigureName, type PerFigure } from "./names";
 import { shadowMaterial } from "./surroundings";
 
-export type FigureName = "a" | "b";
-export const figureNames: FigureName[] = ["a", "b"];
-
-// The file's mesh is one capsule per segment in node order, then the nose, each of as many vertices.
+// The file's mesh is one capsule per segment in node order, then the nose, each of as many
+// vertices.
 const kCapsules = numSegments + 1;
 const kHeadSegment = nodeNames.indexOf("head_top") - 1;
 
@@ -35,7 +44,7 @@ export class FigureScene {
   readonly scene = new Scene();
   readonly duration: number; // s
   private readonly nodes = new Map<string, Object3D>();
-  private readonly figures: Record<FigureName, Figure>;
+  private readonly figures: PerFigure<Figure>;
   private readonly mixer: AnimationMixer;
   private readonly shadow = shadowMaterial();
 
@@ -44,7 +53,10 @@ export class FigureScene {
     return new FigureScene(gltf.scene, gltf.animations[0]);
   }
 
-  private constructor(root: Object3D, private readonly clip: AnimationClip) {
+  private constructor(
+    root: Object3D,
+    private readonly clip: AnimationClip,
+  ) {
     this.scene.add(root);
     // The loader changes names with a slash in them and keeps the file's own in userData.
     const meshes: SkinnedMesh[] = [];
@@ -89,7 +101,9 @@ export class FigureScene {
     const at = new Vector3();
     for (const name of figureNames) {
       const { nodes, positions } = this.figures[name];
-      nodes.forEach((node, k) => at.setFromMatrixPosition(node.matrixWorld).toArray(positions, 3 * k));
+      nodes.forEach((node, k) =>
+        at.setFromMatrixPosition(node.matrixWorld).toArray(positions, 3 * k),
+      );
     }
   }
 

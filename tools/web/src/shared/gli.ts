@@ -1,8 +1,11 @@
-// Gauss Linking Integral of straight segments (Ho and Komura 2007, Eq. 1), in turns. The closed form
-// is the signed solid angle of a parallelogram (van Oosterom and Strackee 1983); the same as
-// model/gli.cc.
+// Gauss Linking Integral of straight segments (Ho and Komura 2007, Eq. 1), in turns. The closed
+// form is the signed solid angle of a parallelogram (van Oosterom and Strackee 1983); the same as
+// model/geometry/gli.cc.
 
 import { numSegments, parentOf } from "./body";
+
+// Turns from which two paths are tangled (ibid., section 4.2).
+export const kTangled = 0.5;
 
 // Node positions of one body: x, y, z of each node in order. [3 x nodes] (m)
 export type NodePositions = ArrayLike<number>;
@@ -37,7 +40,12 @@ function dihedral(volume: number): number {
 
 // GLI of the segment from node `a` to node `b` of `first` with that from `c` to `d` of `second`.
 export function segmentGli(
-  first: NodePositions, a: number, b: number, second: NodePositions, c: number, d: number,
+  first: NodePositions,
+  a: number,
+  b: number,
+  second: NodePositions,
+  c: number,
+  d: number,
 ): number {
   for (let k = 0; k < 3; ++k) {
     const [ak, bk] = [first[3 * a + k], first[3 * b + k]];
@@ -54,7 +62,9 @@ export function segmentGli(
   const [vx, vy, vz] = [0, 1, 2].map((k) => second[3 * d + k] - second[3 * c + k]);
   let s = 0;
   for (let i = 1; i < 4; ++i) if (n[i] < n[s]) s = i;
-  const volume = (uy * vz - uz * vy) * p[3 * s] + (uz * vx - ux * vz) * p[3 * s + 1] +
+  const volume =
+    (uy * vz - uz * vy) * p[3 * s] +
+    (uz * vx - ux * vz) * p[3 * s + 1] +
     (ux * vy - uy * vx) * p[3 * s + 2];
   if (volume === 0) return 0;
   const p13 = dot(0, 2);
@@ -72,8 +82,14 @@ export function gliTable(first: NodePositions, second: NodePositions): Float64Ar
   const table = new Float64Array(numSegments * numSegments);
   for (let i = 0; i < numSegments; ++i) {
     for (let j = 0; j < numSegments; ++j) {
-      table[i * numSegments + j] =
-        segmentGli(first, parentOf[i + 1], i + 1, second, parentOf[j + 1], j + 1);
+      table[i * numSegments + j] = segmentGli(
+        first,
+        parentOf[i + 1],
+        i + 1,
+        second,
+        parentOf[j + 1],
+        j + 1,
+      );
     }
   }
   return table;

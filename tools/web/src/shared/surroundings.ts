@@ -1,8 +1,19 @@
 // What stands round the figures on every stage: light, floor, grid, shadows.
 
 import {
-  BufferGeometry, CircleGeometry, Color, DirectionalLight, Float32BufferAttribute, Fog,
-  HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Scene, Vector3,
+  BufferGeometry,
+  CircleGeometry,
+  Color,
+  DirectionalLight,
+  Float32BufferAttribute,
+  Fog,
+  HemisphereLight,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  type Scene,
+  Vector3,
 } from "three";
 import { themeColour } from "./theme";
 
@@ -27,13 +38,16 @@ export function shadowMaterial(): MeshBasicMaterial {
   const light = towardsLight;
   const [sx, sz] = [light.x / light.y, light.z / light.y].map((x) => x.toFixed(4));
   material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader.replace("#include <project_vertex>", `
+    shader.vertexShader = shader.vertexShader.replace(
+      "#include <project_vertex>",
+      `
       #include <project_vertex>
       vec4 onFloor = modelMatrix * vec4(transformed, 1.0);
       onFloor.xz -= vec2(${sx}, ${sz}) * max(onFloor.y, 0.0);
       onFloor.y = 0.003;
       mvPosition = viewMatrix * onFloor;
-      gl_Position = projectionMatrix * mvPosition;`);
+      gl_Position = projectionMatrix * mvPosition;`,
+    );
   };
   return material;
 }

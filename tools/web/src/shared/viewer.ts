@@ -55,9 +55,13 @@ export class Viewer {
     this.controls.maxDistance = 14;
     this.controls.addEventListener("change", () => this.invalidate());
     // A plain wheel scrolls the page; with Ctrl, or by pinching, it zooms.
-    container.addEventListener("wheel", (event) => {
-      this.controls.enableZoom = event.ctrlKey || event.metaKey;
-    }, { capture: true, passive: true });
+    container.addEventListener(
+      "wheel",
+      (event) => {
+        this.controls.enableZoom = event.ctrlKey || event.metaKey;
+      },
+      { capture: true, passive: true },
+    );
     container.style.touchAction = "pan-y pinch-zoom";
     this.look("three-quarter");
     new ResizeObserver(() => this.invalidate()).observe(container);

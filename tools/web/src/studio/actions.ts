@@ -1,7 +1,8 @@
 // What can be done from a key, a button or a click alike.
 
 import { Quaternion, Vector3 } from "three";
-import { figureNames, type FigureName } from "../shared/figure_scene";
+import { figureNames, type FigureName } from "../shared/names";
+import { stands } from "./measures";
 import type { HoldEnd, Op, OptionName, Photo, Tangle, Vec } from "./protocol";
 import type { Sender } from "./sender";
 import type { Pick, Store, Tool } from "./store";
@@ -10,10 +11,9 @@ import type { Viewport } from "./viewport";
 import { endOf, nodeOf } from "./words";
 
 const kTouching = 0.02; // m between skins; nodes further apart are drawn together by a hold
-const kStands = 0.15; // m over the floor; lower nodes are held to the floor where they are
 
 export class Actions {
-  photoPreview: Photo | null = null; // while a slider or the mouse moves it
+  private photoPreview: Photo | null = null; // while a slider or the mouse moves it
 
   constructor(
     private readonly store: Store,
@@ -90,9 +90,8 @@ export class Actions {
   holdToWorld(place: Vec | null): void {
     const from = this.store.ui.holdFrom;
     if (!from || !place) return;
-    const now = this.store.place(from);
     const { radius_m } = this.store.body[from.figure].nodes[from.node];
-    const stays = now[1] < kStands;
+    const stays = stands(this.store.place(from)); // held to the floor where it is
     const offset: Vec = [place[0], radius_m, place[2]];
     this.connect(from, stays ? { figure: "world" } : { figure: "world", offset });
   }
@@ -211,10 +210,14 @@ export class Actions {
     this.viewport.frameAll(points);
   }
 
+  // As it is shown now.
+  get photo(): Photo | null {
+    return this.photoPreview ?? this.store.state.photo;
+  }
   // `dx`, `dy` in CSS pixels of the main view; kept when `done`.
   shiftPhoto(dx: number, dy: number, done: boolean): void {
-    const { state, ui } = this.store;
-    const photo = this.photoPreview ?? state.photo;
+    const { ui } = this.store;
+    const { photo } = this;
     if (!photo || ui.locked) return;
     const height = this.viewport.main.element.clientHeight;
     const offset: [number, number] = [photo.offset[0] + dx / height, photo.offset[1] - dy / height];

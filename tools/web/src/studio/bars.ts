@@ -4,6 +4,7 @@ import { byId, element } from "../shared/dom";
 import { chooseTheme, isDark } from "../shared/theme";
 import type { Actions } from "./actions";
 import { icon, type IconName } from "./icons";
+import { isOpen } from "./measures";
 import type { Session } from "./session";
 import type { Store, Tool } from "./store";
 import { button } from "./widgets";
@@ -192,7 +193,7 @@ export function fillStatus(store: Store): void {
     solver.textContent = said;
     solver.classList.toggle("bad", bad);
     hint.textContent = kHints[ui.tool];
-    const open = state.holds.filter((h) => h.error_m > 0.01).length;
+    const open = state.holds.filter(isOpen).length;
     const { warnings } = state.queries;
     counts.textContent = [
       open > 0 ? `${open} open hold${open > 1 ? "s" : ""} (S settles)` : "",

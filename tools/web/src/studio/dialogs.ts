@@ -3,6 +3,14 @@
 import { element } from "../shared/dom";
 import { button } from "./widgets";
 
+// Over the page until it is closed.
+export function show(dialog: HTMLDialogElement): HTMLDialogElement {
+  document.body.append(dialog);
+  dialog.addEventListener("close", () => dialog.remove());
+  dialog.showModal();
+  return dialog;
+}
+
 export function openDialog(title: string, content: (Node | string)[], wide = false) {
   const dialog = element(
     "dialog",
@@ -10,11 +18,11 @@ export function openDialog(title: string, content: (Node | string)[], wide = fal
     element("h2", {}, title),
     ...content,
   );
-  document.body.append(dialog);
-  dialog.addEventListener("close", () => dialog.remove());
-  dialog.showModal();
-  return dialog;
+  return show(dialog);
 }
+
+export const cancelButton = (dialog: () => HTMLDialogElement) =>
+  button("Cancel", "leave all as it is (Escape)", () => dialog().close());
 
 // Buttons of a dialog; the last is what Enter does.
 function buttons(
@@ -24,12 +32,11 @@ function buttons(
   act: () => void,
 ): HTMLElement {
   const yes = element("button", { type: "submit", class: `primary ${kind}` }, ok);
-  const no = button("Cancel", "leave all as it is (Escape)", () => dialog().close());
   yes.addEventListener("click", (event) => {
     event.preventDefault();
     act();
   });
-  return element("div", { class: "buttons" }, no, yes);
+  return element("div", { class: "buttons" }, cancelButton(dialog), yes);
 }
 
 export function confirmed(title: string, text: string, ok: string, kind = ""): Promise<boolean> {

@@ -3,7 +3,7 @@
 
 import { Object3D, Quaternion, Vector3 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
-import { jointPlace, rotationVectorOf } from "./limits";
+import { rotationVectorOf } from "./limits";
 import type { Op } from "./protocol";
 import type { Sender } from "./sender";
 import type { Store } from "./store";
@@ -54,7 +54,7 @@ export class Gizmo {
       return;
     }
     const link = turns ? ui.joint : 0;
-    this.handle.position.copy(jointPlace(this.store, ui.figure, link));
+    this.handle.position.set(...this.store.jointCentre(ui.figure, link));
     this.handle.quaternion.fromArray(state.figures[ui.figure].frames[link]);
     this.handle.updateMatrixWorld();
     this.controls.setMode(turns || ui.turning ? "rotate" : "translate");

@@ -1,6 +1,6 @@
 // For tests and for curious people at the console.
 
-import type { FigureName } from "../shared/figure_scene";
+import type { FigureName } from "../shared/names";
 import type { Op, State } from "./protocol";
 import type { Sender } from "./sender";
 import type { Store, Ui } from "./store";

@@ -1,6 +1,7 @@
 // The selected joint: where it is, how it is turned, its limits.
 
 import { element } from "../shared/dom";
+import { words } from "../shared/names";
 import type { Actions } from "./actions";
 import { readLimits } from "./limits";
 import type { Op, Vec } from "./protocol";
@@ -8,7 +9,7 @@ import type { Sender } from "./sender";
 import type { Store } from "./store";
 import { VectorFields } from "./vector_fields";
 import { button, list, note, row, section, select } from "./widgets";
-import { degrees, nodeOf, words } from "./words";
+import { degrees, nodeOf } from "./words";
 
 export class JointSection {
   readonly element: HTMLElement;

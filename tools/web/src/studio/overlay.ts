@@ -2,9 +2,10 @@
 
 import { Vector3 } from "three";
 import { cssOf, figureColour, mix, rgbOf } from "../shared/colours";
-import { figureNames } from "../shared/figure_scene";
+import { figureNames } from "../shared/names";
 import { themeColour } from "../shared/theme";
-import { drawLimits } from "./limits";
+import { drawLimits } from "./limit_arcs";
+import { isOpen, stands } from "./measures";
 import { isBehind, isMinor, unit } from "./picking";
 import type { Vec } from "./protocol";
 import type { Pick, Store } from "./store";
@@ -12,7 +13,6 @@ import type { View } from "./view";
 import { cm, nodeOf } from "./words";
 
 const kOverlapFrom = 0.01; // m; less is contact
-const kOpen = 0.01; // m; a hold that is further apart is open
 
 type Context = CanvasRenderingContext2D;
 type Point = { x: number; y: number };
@@ -154,7 +154,7 @@ export class Overlay {
     this.store.state.holds.forEach((hold, k) => {
       const [from, to] = [onPage(view, hold.from_place), onPage(view, hold.to_place)];
       if (!from || !to) return;
-      const open = hold.error_m > kOpen;
+      const open = isOpen(hold);
       const lit = this.store.ui.litHold === k;
       const colour = open ? themeColour("--bad") : themeColour("--good");
       context.setLineDash(open ? [5, 4] : []);
@@ -198,7 +198,7 @@ export class Overlay {
       for (const name of this.store.state.supports[figure]) {
         const node = this.store.findNode(figure, name);
         const place = this.store.place({ figure, node });
-        if (place[1] > 0.15) continue;
+        if (!stands(place)) continue;
         const at = onPage(view, [place[0], 0, place[2]] as Vec);
         const across = new Vector3()
           .setFromMatrixColumn(view.camera.matrixWorld, 0)

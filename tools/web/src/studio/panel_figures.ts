@@ -1,9 +1,10 @@
 // Panel "Figures": the selected joint, the figure it belongs to, and the solver's options.
 
 import { element } from "../shared/dom";
-import { figureNames, type FigureName } from "../shared/figure_scene";
+import { figureNames, type FigureName, type PerFigure } from "../shared/names";
 import type { Actions } from "./actions";
 import { JointSection } from "./joint_section";
+import { statureRange } from "./measures";
 import { optionNames, type Op, type OptionName } from "./protocol";
 import type { Sender } from "./sender";
 import type { Shown, Store } from "./store";
@@ -23,7 +24,7 @@ const kOptions: Record<OptionName, [string, string]> = {
 export class FiguresPanel {
   readonly element = element("div", { class: "panel" });
   private readonly joint: JointSection;
-  private readonly tabs: Record<FigureName, HTMLButtonElement>;
+  private readonly tabs: PerFigure<HTMLButtonElement>;
   private readonly stature: NumberField;
   private readonly rootPlace: VectorFields;
   private readonly rootTurn: VectorFields;
@@ -43,11 +44,7 @@ export class FiguresPanel {
     this.stature = number({
       label: "Stature",
       title: "stature of the figure (m)",
-      unit: "m",
-      step: 0.01,
-      digits: 2,
-      min: 0.5,
-      max: 3,
+      ...statureRange,
       commit: (v) => void actions.do({ op: "set_stature", figure: figure(), stature: v }),
     });
     this.rootPlace = new VectorFields(sender, {

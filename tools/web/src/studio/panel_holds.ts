@@ -1,14 +1,14 @@
 // Panel "Holds": what stays together, what is pinned, where feet may stand.
 
 import { element } from "../shared/dom";
-import { figureNames } from "../shared/figure_scene";
+import { figureNames, words, type FigureName } from "../shared/names";
 import type { Actions } from "./actions";
+import { isOpen } from "./measures";
 import type { Hold, Pin } from "./protocol";
 import type { Store } from "./store";
 import { button, check, list, note, row, section } from "./widgets";
-import { cm, endOf, nodeOf, words } from "./words";
+import { cm, endOf, nodeOf } from "./words";
 
-const kOpen = 0.01; // m
 const kFeet = ["left_ankle", "left_toe", "right_ankle", "right_toe"];
 
 export class HoldsPanel {
@@ -22,7 +22,7 @@ export class HoldsPanel {
   private readonly noPins = note(
     "No pins. Select a joint and press P: drags leave it where it is.",
   );
-  private readonly feet: { figure: "a" | "b"; node: string; check: ReturnType<typeof check> }[] =
+  private readonly feet: { figure: FigureName; node: string; check: ReturnType<typeof check> }[] =
     [];
 
   constructor(
@@ -71,7 +71,7 @@ export class HoldsPanel {
     store.onChange(() => this.refresh());
   }
 
-  private support(figure: "a" | "b", node: string, on: boolean): Promise<boolean> {
+  private support(figure: FigureName, node: string, on: boolean): Promise<boolean> {
     const others = this.store.state.supports[figure].filter((name) => name !== node);
     return this.actions.do({ op: "set_supports", figure, nodes: on ? [...others, node] : others });
   }
@@ -98,7 +98,7 @@ export class HoldsPanel {
   }
 
   private hold(hold: Hold, index: number): HTMLElement {
-    const open = hold.error_m > kOpen;
+    const open = isOpen(hold);
     const turn = check(
       "keeps its angle",
       "also keep the relative orientation of the two ends",

@@ -1,12 +1,13 @@
 // Panel "Library": what the template says of itself, and the folder of templates.
 
 import { element } from "../shared/dom";
-import { address, get, post, trying } from "./api";
+import { get, post, trying } from "./api";
 import type { Actions } from "./actions";
 import { asked, confirmed } from "./dialogs";
 import type { TemplateInfo } from "./protocol";
 import type { Session } from "./session";
 import type { Store } from "./store";
+import { templateTile } from "./template_tile";
 import { button, note, row, section } from "./widgets";
 
 export class LibraryPanel {
@@ -141,34 +142,13 @@ export class LibraryPanel {
   }
 
   private item(template: TemplateInfo): HTMLElement {
-    const { id, name, tags, read_only, has_thumbnail, description, error } = template;
-    const picture = has_thumbnail
-      ? element("img", {
-          alt: "",
-          src: address("/api/library/thumbnail", { id, v: String(this.stamp) }),
-          loading: "lazy",
-        })
-      : element(
-          "span",
-          { class: "no-picture", "aria-hidden": "true" },
-          name.slice(0, 1).toUpperCase(),
-        );
-    const open = element(
-      "button",
-      { type: "button", class: "open", title: `open: ${description || name}` },
-      picture,
-      element(
-        "span",
-        { class: "about" },
-        element("b", {}, name),
-        element(
-          "small",
-          {},
-          error ?? [read_only ? "shipped" : "", ...tags].filter(Boolean).join(" · "),
-        ),
-      ),
-    );
-    open.addEventListener("click", () => void this.open(template));
+    const { id, name, tags, read_only, description, error } = template;
+    const open = templateTile(template, {
+      title: `open: ${description || name}`,
+      about: error ?? [read_only ? "shipped" : "", ...tags].filter(Boolean).join(" · "),
+      version: String(this.stamp),
+      act: () => void this.open(template),
+    });
     const copy = button(
       "Duplicate",
       `make a copy of ${name}`,

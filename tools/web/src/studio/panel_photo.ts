@@ -118,7 +118,7 @@ export class PhotoPanel {
   }
 
   private change(part: Partial<Photo>, done: boolean): void {
-    const photo = this.actions.photoPreview ?? this.store.state.photo;
+    const { photo } = this.actions;
     if (photo) this.actions.setPhoto({ ...photo, ...part }, done);
   }
 
@@ -145,7 +145,7 @@ export class PhotoPanel {
   }
 
   private refresh(): void {
-    const photo = this.actions.photoPreview ?? this.store.state.photo;
+    const { photo } = this.actions;
     this.controls.hidden = !photo;
     this.lock.set(this.store.ui.locked);
     this.camera.refresh();

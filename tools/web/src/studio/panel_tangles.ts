@@ -1,16 +1,17 @@
 // Panel "Tangles": what is wound round what, live; which of it is to stay; what is wrong.
 
 import { numSegments, nodeNames, parentOf } from "../shared/body";
-import { cssOf, heatStops, ramp, rgbOf, sequential } from "../shared/colours";
+import { cssOf, ramp, rgbOf, sequential } from "../shared/colours";
 import { element, fitCanvas } from "../shared/dom";
-import { gliTable } from "../shared/gli";
+import { gliTable, kTangled } from "../shared/gli";
+import { heatScale } from "../shared/legend";
+import { words } from "../shared/names";
 import { isDark, onThemeChange } from "../shared/theme";
 import type { Actions } from "./actions";
 import type { Tag, Tangle } from "./protocol";
 import type { Store } from "./store";
-import { kHeatFull } from "./viewport";
 import { check, list, note, section } from "./widgets";
-import { cm, limb, limbs, pathOf, signed, words } from "./words";
+import { cm, limb, limbs, pathOf, signed } from "./words";
 
 const kBarFull = 1.2; // turns at the end of a bar
 const kPairFull = 0.35;
@@ -50,14 +51,7 @@ export class TanglesPanel {
       "colour each limb by the sum of |GLI| over the other body's segments (turns)",
       (heat) => store.set({ heat }),
     );
-    const stops = [0, 1, 2, 3, 4].map((k) => cssOf(ramp(heatStops.a, k / 4))).join(",");
-    const legend = element(
-      "div",
-      { class: "legend" },
-      "0",
-      element("i", { style: `background:linear-gradient(90deg,${stops})` }),
-      `${kHeatFull} turns`,
-    );
+    const legend = element("div", { class: "legend" }, ...heatScale());
     this.element.append(
       section("Tangles to keep", this.found.label, this.none, this.tags, this.literal),
       section("Warnings", this.noWarnings, this.warnings),
@@ -116,7 +110,7 @@ export class TanglesPanel {
     });
     const bar = element(
       "div",
-      { class: "bar", title: "|GLI| (turns); the line stands at 0.5" },
+      { class: "bar", title: `|GLI| (turns); the line stands at ${kTangled}` },
       element("i", {}),
       element("b", {}),
     );
@@ -154,10 +148,10 @@ export class TanglesPanel {
     item.querySelector("output")!.textContent = signed(tag.gli, 3);
     const fill = item.querySelector<HTMLElement>("i")!;
     fill.style.width = `${Math.min(100, (100 * size) / kBarFull)}%`;
-    const state = size <= 0.5 ? "lost" : tag.weak ? "weak" : "kept";
+    const state = size <= kTangled ? "lost" : tag.weak ? "weak" : "kept";
     item.dataset.state = state;
-    const said = [`${signed(size - 0.5, 3)} to the 0.5 line`];
-    if (size <= 0.5) said.push("not tangled");
+    const said = [`${signed(size - kTangled, 3)} to the ${kTangled} line`];
+    if (size <= kTangled) said.push("not tangled");
     else if (tag.weak) said.push(size < 0.6 ? "weak: under 0.6" : "weak");
     if (tag.can_slip) said.push("ends inside a loop that can slip");
     item.querySelector("small")!.textContent = said.join(" · ");

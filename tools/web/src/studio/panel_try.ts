@@ -1,6 +1,7 @@
 // Panel "Try it": two clips solved by the template as it stands, watched, stopped, read.
 
 import { element } from "../shared/dom";
+import { figureNames } from "../shared/names";
 import { get, post, trying } from "./api";
 import { RunView } from "./run_view";
 import type { Store } from "./store";
@@ -83,7 +84,7 @@ export class TryPanel {
     const said = ({ name, frames, error }: Clip) =>
       error ? `${name}: ${error}` : frames ? `${name} (${frames} frames)` : name;
     const options = files.map((clip) => [clip.id, said(clip)] as [string, string]);
-    for (const figure of ["a", "b"] as const) {
+    for (const figure of figureNames) {
       const named =
         files.find(({ id }) => id === `start/${figure}`) ??
         files.find(({ name }) => new RegExp(`(^|[/ ])${figure}\\.`).test(name)) ??

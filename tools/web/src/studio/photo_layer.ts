@@ -21,8 +21,8 @@ export class PhotoLayer {
   }
 
   private refresh(): void {
-    const { state, session } = this.store;
-    const photo = this.actions.photoPreview ?? state.photo;
+    const { session } = this.store;
+    const { photo } = this.actions;
     this.image.hidden = !photo;
     if (!photo) return;
     const source = address("/api/photo", {
@@ -39,7 +39,7 @@ export class PhotoLayer {
 
   // In heights of the main view, so that it stays with the figures whatever the window's size.
   place(): void {
-    const photo = this.actions.photoPreview ?? this.store.state.photo;
+    const { photo } = this.actions;
     if (!photo) return;
     const { clientHeight, clientWidth } = this.actions.viewport.main.element;
     const { style } = this.image;

@@ -1,7 +1,7 @@
 // Which node is meant by a point of the page.
 
 import { Vector3 } from "three";
-import { figureNames } from "../shared/figure_scene";
+import { figureNames } from "../shared/names";
 import type { Pick, Store } from "./store";
 import type { View } from "./view";
 

@@ -1,7 +1,8 @@
 // What the page and the server say to each other. Lengths in m, angles in degrees, quaternions
 // [x, y, z, w]; figures, nodes and joints by name.
 
-import type { FigureName } from "../shared/figure_scene";
+import type { FigureName, PerFigure } from "../shared/names";
+import type { Requirement } from "../shared/requirement";
 
 export type Vec = [number, number, number];
 export type Quat = [number, number, number, number];
@@ -23,7 +24,7 @@ export interface FigureBody {
   nodes: { name: string; parent: number; radius_m: number; link: number }[]; // link: carries it
   links: { name: string; parent: number; node: string | null; limits: Limits }[];
 }
-export type Body = Record<FigureName, FigureBody>;
+export type Body = PerFigure<FigureBody>;
 
 export interface FigureState {
   stature: number;
@@ -75,14 +76,6 @@ export interface Overlap {
   depth_m: number;
   place: Vec;
 }
-export interface Requirement {
-  name: string;
-  value: number;
-  limit: number;
-  unit: string;
-  met: boolean;
-  where: string;
-}
 export interface Queries {
   tags: Tag[];
   literal_tangles: number;
@@ -124,12 +117,12 @@ export interface State {
   name: string;
   description: string;
   tags_words: string[];
-  figures: Record<FigureName, FigureState>;
+  figures: PerFigure<FigureState>;
   pins: Pin[];
   options: Record<OptionName, boolean>;
   holds: Hold[];
-  supports: Record<FigureName, string[]>;
-  root: Record<FigureName, "world" | "partner">;
+  supports: PerFigure<string[]>;
+  root: PerFigure<"world" | "partner">;
   tangles: Tangle[];
   photo: Photo | null;
   camera: Camera | null;
@@ -155,7 +148,7 @@ export interface ClipInfo {
 export interface Start {
   template?: string;
   photo?: boolean;
-  clips?: Partial<Record<FigureName, ClipInfo>>;
+  clips?: Partial<PerFigure<ClipInfo>>;
   library?: string;
 }
 export interface Reply {
@@ -166,7 +159,7 @@ export interface Reply {
   result?: Result | null;
   warning?: string;
 }
-// One operation of tools/pose_operations.h: {op: "drag", figure: "a", ...}.
+// One operation of tools/posing/operations.h: {op: "drag", figure: "a", ...}.
 export type Op = { op: string } & Record<string, unknown>;
 
 export interface TemplateInfo {

@@ -4,7 +4,8 @@
 import { element, fitCanvas } from "../shared/dom";
 import { onThemeChange, themeColour } from "../shared/theme";
 import { address } from "./api";
-import type { Requirement } from "./protocol";
+import type { Requirement } from "../shared/requirement";
+import { show } from "./dialogs";
 import { button, list, row } from "./widgets";
 import { cm } from "./words";
 
@@ -168,13 +169,11 @@ function openReport(url: string): void {
     "in a tab of its own",
   );
   const close = button("Close", "back to the studio (Escape)", () => dialog.close());
-  const dialog = element(
+  const dialog: HTMLDialogElement = element(
     "dialog",
     { class: "report", "aria-label": "Report" },
     element("div", { class: "row" }, element("h2", {}, "Report"), away, close),
     element("iframe", { src: url, title: "report of the run" }),
   );
-  document.body.append(dialog);
-  dialog.addEventListener("close", () => dialog.remove());
-  dialog.showModal();
+  show(dialog);
 }

@@ -1,6 +1,7 @@
 // The tabs on the right, one panel each.
 
 import { byId, element } from "../shared/dom";
+import { isOpen } from "./measures";
 import type { PanelName, Store } from "./store";
 
 const kTitles: Record<PanelName, string> = {
@@ -43,7 +44,7 @@ export function fillSide(store: Store, panels: Record<PanelName, HTMLElement>): 
     const { state } = store;
     const warn = {
       tangles: state.queries.warnings.length > 0,
-      holds: state.holds.some((h) => h.error_m > 0.01),
+      holds: state.holds.some(isOpen),
     };
     names.forEach((name, k) => {
       const open = store.ui.panel === name;

@@ -1,11 +1,13 @@
 // "Start from...": rest, a template of the library, or a frame of the clips.
 
 import { element } from "../shared/dom";
-import { address } from "./api";
-import { openDialog } from "./dialogs";
+import { figureNames, type FigureName } from "../shared/names";
+import { cancelButton, openDialog } from "./dialogs";
+import { statureRange } from "./measures";
 import type { TemplateInfo } from "./protocol";
 import type { Session } from "./session";
 import type { Store } from "./store";
+import { templateTile } from "./template_tile";
 import { button, check, note, number, row, section } from "./widgets";
 
 export function openStartDialog(store: Store, session: Session, templates: TemplateInfo[]): void {
@@ -15,15 +17,11 @@ export function openStartDialog(store: Store, session: Session, templates: Templ
   };
   const stature = { a: store.body.a.stature, b: store.body.b.stature };
   let distance = 1;
-  const tall = (figure: "a" | "b") => {
+  const tall = (figure: FigureName) => {
     const field = number({
       label: `Stature of ${figure}`,
       title: `stature of figure ${figure} (m)`,
-      unit: "m",
-      step: 0.01,
-      digits: 2,
-      min: 0.5,
-      max: 3,
+      ...statureRange,
       commit: (v) => (stature[figure] = v),
     });
     field.set(stature[figure]);
@@ -59,22 +57,11 @@ export function openStartDialog(store: Store, session: Session, templates: Templ
     element(
       "ul",
       { class: "templates small" },
-      ...templates.map(({ id, name, has_thumbnail }) => {
-        const picture = has_thumbnail
-          ? element("img", { alt: "", src: address("/api/library/thumbnail", { id }) })
-          : element(
-              "span",
-              { class: "no-picture", "aria-hidden": "true" },
-              name.slice(0, 1).toUpperCase(),
-            );
-        const open = element(
-          "button",
-          { type: "button", class: "open", title: `start from ${id}` },
-          picture,
-          element("span", { class: "about" }, element("b", {}, name), element("small", {}, id)),
-        );
-        open.addEventListener("click", () => void go({ template: id }));
-        return element("li", {}, open);
+      ...templates.map((template) => {
+        const { id } = template;
+        const act = () => void go({ template: id });
+        const tile = { title: `start from ${id}`, about: id, act };
+        return element("li", {}, templateTile(template, tile));
       }),
     ),
   );
@@ -88,7 +75,7 @@ export function openStartDialog(store: Store, session: Session, templates: Templ
       element(
         "div",
         { class: "buttons" },
-        button("Cancel", "leave all as it is (Escape)", () => dialog.close()),
+        cancelButton(() => dialog),
       ),
     ],
     true,
@@ -106,7 +93,7 @@ function clipPart(store: Store, go: (what: object) => Promise<void>): HTMLElemen
   const clips = { a, b };
   const frame = { a: 0, b: 0 };
   let together = false;
-  const bars = (["a", "b"] as const).map((figure) => {
+  const bars = figureNames.map((figure) => {
     const { file, frames, fps, stature } = clips[figure];
     const output = element("output", {}, "frame 0");
     const input = element("input", {

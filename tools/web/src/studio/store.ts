@@ -1,7 +1,7 @@
 // What the page shows: the server's state as it came last, and what only the page knows. Everybody
 // reads it; the state changes by replies of the server alone.
 
-import type { FigureName } from "../shared/figure_scene";
+import type { FigureName, PerFigure } from "../shared/names";
 import type { Body, Reply, Result, Start, State, Tangle, Vec } from "./protocol";
 
 export interface Pick {
@@ -20,7 +20,7 @@ export interface Ui {
   hovered: Pick | null;
   worldAxes: boolean;
   turning: boolean; // the move tool turns instead
-  shown: Record<FigureName, Shown>;
+  shown: PerFigure<Shown>;
   heat: boolean;
   solid: number; // opacity of the figures over a photo
   sideViews: boolean;
@@ -114,6 +114,9 @@ export class Store {
   }
   place({ figure, node }: Pick): Vec {
     return this.state.figures[figure].nodes[node];
+  }
+  jointCentre(figure: FigureName, link: number): Vec {
+    return this.state.figures[figure].centres[link];
   }
 
   // The joint that a node stands for: the one at its place, else the one that carries it.

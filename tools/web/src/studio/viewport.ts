@@ -2,18 +2,16 @@
 // Draws only when something changed.
 
 import { Scene, Vector3, WebGLRenderer, type Fog, type LineBasicMaterial } from "three";
-import { gliTable, heat } from "../shared/gli";
-import { figureColour, heatStops, mix, ramp, rgbOf, type Rgb } from "../shared/colours";
+import { findNode, pathSigns } from "../shared/body";
 import { element } from "../shared/dom";
-import { figureNames, type FigureName } from "../shared/figure_scene";
-import { numSegments, findNode, pathSigns } from "../shared/body";
+import { gliTable, heat } from "../shared/gli";
+import { limbColours } from "../shared/limb_colours";
+import { figureNames, type FigureName, type PerFigure } from "../shared/names";
 import { drawsInSoftware, pixelRatio, shadowMaterial, surround } from "../shared/surroundings";
-import { isDark, onThemeChange, themeColour } from "../shared/theme";
+import { onThemeChange, themeColour } from "../shared/theme";
 import { FigureMesh } from "./figure_mesh";
 import type { Store } from "./store";
 import { View, type ViewName } from "./view";
-
-export const kHeatFull = 0.5; // turns; from there on the darkest colour
 
 export class Viewport {
   readonly scene = new Scene();
@@ -23,7 +21,7 @@ export class Viewport {
   private readonly renderer: WebGLRenderer;
   private readonly canvas = element("canvas", { class: "viewer", "aria-hidden": "true" });
   private readonly overlay = element("canvas", { class: "overlay", "aria-hidden": "true" });
-  private readonly meshes: Partial<Record<FigureName, FigureMesh>> = {};
+  private readonly meshes: Partial<PerFigure<FigureMesh>> = {};
   private readonly surroundings = surround(this.scene);
   private readonly shadow = shadowMaterial();
   private drawOver: (context: CanvasRenderingContext2D, view: View) => void = () => {};
@@ -106,22 +104,14 @@ export class Viewport {
   // Plain, by heat, or with what is lit in colour and the rest dim.
   private paint(): void {
     const { state, ui } = this.store;
-    const dim = rgbOf(isDark() ? "#3A424C" : "#C9CFD6");
     const flat = (figure: FigureName) => state.figures[figure].nodes.flat();
     const values = ui.heat ? heat(gliTable(flat("a"), flat("b"))) : null;
     figureNames.forEach((figure, f) => {
       const path = ui.lit?.[figure];
-      const signs = path ? pathSigns(findNode(path[0]), findNode(path[1])) : null;
-      const colours: Rgb[] = [];
-      for (let s = 0; s < numSegments; ++s) {
-        let colour = values
-          ? ramp(heatStops[figure], values[f][s] / kHeatFull)
-          : rgbOf(figureColour[figure]);
-        const off = signs ? signs[s] === 0 : ui.litPair !== null && ui.litPair[f] !== s;
-        if (off) colour = mix(colour, dim, 0.85);
-        colours.push(colour);
-      }
-      this.meshes[figure]!.paint(colours);
+      const signs = path && pathSigns(findNode(path[0]), findNode(path[1]));
+      const off = (s: number) =>
+        signs ? signs[s] === 0 : ui.litPair !== null && ui.litPair[f] !== s;
+      this.meshes[figure]!.paint(limbColours(figure, values && values[f], off, 0.85));
     });
   }
 

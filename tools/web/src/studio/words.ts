@@ -1,9 +1,7 @@
 // Names and numbers in words.
 
-import type { FigureName } from "../shared/figure_scene";
+import { words, type FigureName } from "../shared/names";
 import type { HoldEnd, Path } from "./protocol";
-
-export const words = (name: string) => name.replace(/_/g, " ");
 
 // "a/left_elbow" -> "a's left elbow"
 export function limb(name: string): string {

@@ -1,0 +1,23 @@
+// The cause of a miss and the setting that would change it. Inner part of
+// solver/metrics/diagnosis.h.
+#pragma once
+
+#include "solver/metrics/diagnosis.h"
+
+namespace retarget::solver {
+
+struct ConflictCase {
+  const Problem& problem;
+  const Unknowns& unknowns;
+  const MeasureSubject& subject;
+  const Metrics& metrics;
+};
+
+// Fills cause, suggestion and what belongs to them; `conflict` has its check and opposition.
+void FindCause(const ConflictCase& c, Conflict* conflict);
+
+// What the clips and the template themselves ask for that no weight can settle: two planted feet in
+// one place, or a hold out of reach of the feet. False where there is no such thing.
+bool FindContradiction(const ConflictCase& c, Conflict* conflict);
+
+}  // namespace retarget::solver

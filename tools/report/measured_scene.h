@@ -1,0 +1,49 @@
+// Written scenes as motions that can be measured, and written rigs against them.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "io/scene/scene_motion.h"
+#include "model/rig/rig.h"
+#include "solver/metrics/metrics.h"
+
+namespace retarget::report {
+
+// A written scene as a motion to be measured.
+solver::MotionView ViewOfScene(const io::SceneMotion& scene, const std::array<Body, 2>& body);
+
+// A scene's file and what is measured of it.
+class MeasuredScene {
+ public:
+  // Throws InputError. `name` is what messages call the bytes.
+  MeasuredScene(std::string bytes, const std::string& name, const std::array<Body, 2>& body);
+  MeasuredScene(const MeasuredScene&) = delete;  // the view looks at the scene
+  MeasuredScene& operator=(const MeasuredScene&) = delete;
+  // Fills series and metrics; `source` may be this scene itself.
+  void Measure(const solver::MeasureSubject& subject, const MeasuredScene& source);
+
+  const std::string& bytes() const { return bytes_; }
+  const solver::MotionView& view() const { return view_; }
+  const solver::FrameSeries& series() const { return series_; }
+  const solver::Metrics& metrics() const { return metrics_; }
+
+ private:
+  std::string bytes_;
+  io::SceneMotion scene_;
+  solver::MotionView view_;
+  solver::FrameSeries series_;
+  solver::Metrics metrics_;
+};
+
+// Largest distance (m) between the joints of a written-back motion and the scene's nodes, over all
+// output frames. `joints` pairs nodes with joints of `rig`, which are found in `written` by name.
+struct NodeJoint {
+  int node, joint;
+};
+double WriteBackError(const RigMotion& written, const Rig& rig, double metres_per_unit, char up,
+                      const std::vector<NodeJoint>& joints, const solver::MotionView& scene,
+                      int figure);
+
+}  // namespace retarget::report

@@ -1,0 +1,123 @@
+#include "tools/report/requirement_text.h"
+
+#include <fmt/format.h>
+
+#include "tools/report/report.h"
+
+namespace retarget::report {
+namespace {
+
+using Kind = solver::RequirementKind;
+
+// What a kind is called in names, where its number or figure follows.
+const char* WordsOf(Kind kind) {
+  switch (kind) {
+    case Kind::kTangle:
+      return "tangle";
+    case Kind::kPassThroughs:
+      return "pass-throughs";
+    case Kind::kPenetration:
+      return "penetration";
+    case Kind::kPenetrationOver1cm:
+      return "penetration over 1 cm";
+    case Kind::kFootDrift:
+      return "foot drift";
+    case Kind::kFloor:
+      return "floor";
+    case Kind::kHold:
+      return "hold";
+    case Kind::kSegmentLength:
+      return "segment lengths";
+    case Kind::kWriteBack:
+      return "write-back";
+  }
+  return "";
+}
+
+}  // namespace
+
+const char* KindName(Kind kind) {
+  switch (kind) {
+    case Kind::kTangle:
+      return "tangle";
+    case Kind::kPassThroughs:
+      return "pass_throughs";
+    case Kind::kPenetration:
+      return "penetration";
+    case Kind::kPenetrationOver1cm:
+      return "penetration_over_1cm";
+    case Kind::kFootDrift:
+      return "foot_drift";
+    case Kind::kFloor:
+      return "floor";
+    case Kind::kHold:
+      return "hold";
+    case Kind::kSegmentLength:
+      return "segment_length";
+    case Kind::kWriteBack:
+      return "write_back";
+  }
+  return "";
+}
+
+std::string NameOf(const solver::RequirementCheck& check) {
+  const char* name = WordsOf(check.kind);
+  if (check.item >= 0) return fmt::format("{} {}", name, check.item + 1);
+  return check.figure < 0 ? name : fmt::format("{} {}", name, kFigure[check.figure]);
+}
+
+const char* UnitOf(Kind kind) {
+  switch (kind) {
+    case Kind::kTangle:
+      return "turns";
+    case Kind::kPassThroughs:
+      return "";
+    case Kind::kPenetrationOver1cm:
+      return "% of frames";
+    case Kind::kSegmentLength:
+      return "%";
+    case Kind::kPenetration:
+    case Kind::kFootDrift:
+    case Kind::kFloor:
+    case Kind::kHold:
+    case Kind::kWriteBack:
+      return "m";
+  }
+  return "";
+}
+
+std::string WorstPlace(const solver::RequirementCheck& check, const std::array<Body, 2>& body) {
+  const std::string frame = check.frame < 0 ? "" : fmt::format("frame {}", check.frame);
+  const auto node = [&](size_t k) {
+    return body[check.limbs[k].figure].nodes[check.limbs[k].node].name;
+  };
+  const auto pair = [&](const char* between) {
+    return check.limbs.size() < 2
+               ? frame
+               : fmt::format("{}, a {} {} b {}", frame, node(0), between, node(1));
+  };
+  switch (check.kind) {
+    case Kind::kTangle:
+      return fmt::format("a ({}, {}) x b ({}, {}), {}", node(0), node(1), node(2), node(3), frame);
+    case Kind::kPassThroughs:
+      return pair("through");
+    case Kind::kPenetration:
+      return pair("in");
+    case Kind::kFootDrift:
+    case Kind::kHold:
+      return frame;
+    case Kind::kWriteBack:
+      return check.file;
+    case Kind::kPenetrationOver1cm:
+    case Kind::kFloor:
+    case Kind::kSegmentLength:
+      return "";
+  }
+  return "";
+}
+
+std::string LimbName(const solver::LimbNode& limb, const std::array<Body, 2>& body) {
+  return fmt::format("{} {}", kFigure[limb.figure], body[limb.figure].nodes[limb.node].name);
+}
+
+}  // namespace retarget::report

@@ -1,0 +1,162 @@
+#include "tools/report/subject_json.h"
+
+namespace retarget::report {
+namespace {
+
+Json VectorJson(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Vec3 VectorFromJson(const Json& j) { return Vec3(j.at(0), j.at(1), j.at(2)); }
+
+Json PathJson(const Body& body, const Path& path) {
+  return Json::array({body.nodes[path.from].name, body.nodes[path.to].name});
+}
+
+Json HoldPointJson(const solver::MeasureSubject& subject, const HoldPoint& point) {
+  if (point.figure == kWorld) return {{"figure", "world"}, {"position", VectorJson(point.offset)}};
+  return {{"figure", kFigure[point.figure]},
+          {"node", subject.body[point.figure].nodes[point.node].name},
+          {"offset", VectorJson(point.offset)}};
+}
+
+// Throws InputError where the body has no such node.
+int NodeNamed(const Body& body, const Json& name) {
+  const int node = body.FindNode(name);
+  if (node < 0) throw InputError("there is no node " + name.get<std::string>());
+  return node;
+}
+
+HoldPoint HoldPointFromJson(const solver::MeasureSubject& subject, const Json& j) {
+  HoldPoint point;
+  const std::string figure = j.at("figure");
+  if (figure == "world") return {kWorld, 0, VectorFromJson(j.at("position"))};
+  point.figure = figure == "a" ? 0 : 1;
+  point.node = NodeNamed(subject.body[point.figure], j.at("node"));
+  point.offset = VectorFromJson(j.at("offset"));
+  return point;
+}
+
+// The tree: every node with its parent node and the link that carries it.
+Json NodesJson(const Body& body) {
+  Json nodes = Json::array();
+  for (const Node& node : body.nodes) {
+    nodes.push_back(
+        {{"name", node.name},
+         {"parent", node.parent < 0 ? Json(nullptr) : Json(body.nodes[node.parent].name)},
+         {"link", body.links[node.link].name}});
+  }
+  return nodes;
+}
+
+// The body's tree, as far as measuring needs it: links have names alone. Reports from before the
+// nodes were written are about the standard body.
+Body BodyFromJson(const Json& figure) {
+  if (!figure.contains("nodes")) return StandardBody(AverageMeasures(figure.at("stature_m")));
+  Body body;
+  body.stature = figure.at("stature_m");
+  for (const Json& j : figure.at("nodes")) {
+    Node node;
+    node.name = j.at("name");
+    if (!j.at("parent").is_null()) {
+      node.parent = body.FindNode(j.at("parent"));
+      if (node.parent < 0) throw InputError("its node " + node.name + " comes before its parent");
+    }
+    node.link = body.FindLink(j.at("link"));
+    if (node.link < 0) {
+      node.link = body.num_links();
+      body.links.emplace_back();
+      body.links.back().name = j.at("link");
+    }
+    body.nodes.push_back(node);
+  }
+  return body;
+}
+
+}  // namespace
+
+Json SubjectJson(const solver::MeasureSubject& subject, const solver::Metrics& result) {
+  Json out;
+  out["tangles"] = Json::array();
+  for (size_t k = 0; k < subject.tangles.size(); ++k) {
+    const solver::HeldTangle& held = subject.tangles[k];
+    out["tangles"].push_back(
+        {{"a", PathJson(subject.body[0], held.tag.tangle.a)},
+         {"b", PathJson(subject.body[1], held.tag.tangle.b)},
+         {"template_gli", held.tag.tangle.gli},
+         {"target", held.target},
+         {"rho", held.tag.rho},
+         {"min_signed_gli", result.tangles[k].min_signed_gli},
+         {"min_signed_gli_between_frames", result.tangles[k].min_signed_gli_between},
+         {"frames_below_half", result.tangles[k].frames_below_half}});
+  }
+  out["pass_throughs"] = PassThroughsJson(subject, result.pass_throughs);
+  for (int f = 0; f < 2; ++f) {
+    const Body& body = subject.body[f];
+    Json& figure = out["bodies"][kFigure[f]];
+    figure["stature_m"] = body.stature;
+    for (int n = 1; n < body.num_nodes(); ++n) {
+      figure["radius"][body.nodes[n].name] = body.nodes[n].radius;
+      figure["length"][body.nodes[n].name] = subject.length[f][n];
+    }
+    figure["nodes"] = NodesJson(body);
+  }
+  for (int f = 0; f < 2; ++f) {
+    Json contacts = Json::array();
+    for (const Contact& c : subject.contacts[f]) {
+      contacts.push_back(
+          {{"node", subject.body[f].nodes[c.node].name}, {"first", c.first}, {"last", c.last}});
+    }
+    out["contacts"][kFigure[f]] = contacts;
+  }
+  out["holds"] = Json::array();
+  for (size_t k = 0; k < subject.holds.size(); ++k) {
+    const Hold& hold = subject.holds[k];
+    out["holds"].push_back({{"from", HoldPointJson(subject, hold.from)},
+                            {"to", HoldPointJson(subject, hold.to)},
+                            {"rotation", hold.rotation},
+                            {"largest_error_m", result.hold_m[k]},
+                            {"frame", result.hold_frame[k]}});
+  }
+  return out;
+}
+
+solver::MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
+  try {
+    solver::MeasureSubject subject;
+    for (int f = 0; f < 2; ++f) {
+      const Json& figure = report.at("bodies").at(kFigure[f]);
+      Body& body = subject.body[f];
+      body = BodyFromJson(figure);
+      subject.length[f].assign(body.nodes.size(), 0);
+      for (int n = 1; n < body.num_nodes(); ++n) {
+        body.nodes[n].radius = figure.at("radius").at(body.nodes[n].name);
+        subject.length[f][n] = figure.at("length").at(body.nodes[n].name);
+      }
+      for (const Json& c : report.at("contacts").at(kFigure[f])) {
+        subject.contacts[f].push_back({body.FindNode(c.at("node")), c.at("first"), c.at("last")});
+      }
+    }
+    const auto path_of = [&](int f, const Json& j) {
+      return Path{NodeNamed(subject.body[f], j.at(0)), NodeNamed(subject.body[f], j.at(1))};
+    };
+    for (const Json& t : report.at("tangles")) {
+      solver::HeldTangle held;
+      held.tag.tangle = {path_of(0, t.at("a")), path_of(1, t.at("b")), t.at("template_gli")};
+      held.sign = held.tag.tangle.gli < 0 ? -1 : 1;
+      held.target = t.at("target");
+      subject.tangles.push_back(held);
+    }
+    for (const Json& h : report.at("holds")) {
+      Hold hold;
+      hold.from = HoldPointFromJson(subject, h.at("from"));
+      hold.to = HoldPointFromJson(subject, h.at("to"));
+      subject.holds.push_back(hold);
+    }
+    return subject;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(path + ": not a report of this program: " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(path + ": " + error.what());
+  }
+}
+
+}  // namespace retarget::report

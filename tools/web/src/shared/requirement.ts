@@ -1,0 +1,27 @@
+// A requirement as report.json has it (docs/report.md); the studio's runs say the same.
+import type { FigureName } from "./names";
+
+export type RequirementKind =
+  | "tangle"
+  | "pass_throughs"
+  | "penetration"
+  | "penetration_over_1cm"
+  | "foot_drift"
+  | "floor"
+  | "hold"
+  | "segment_length"
+  | "write_back";
+
+export interface Requirement {
+  name: string;
+  kind: RequirementKind;
+  item: number | null; // tag or hold, from 0
+  figure: FigureName | null;
+  frame: number | null; // of the worst
+  limbs: { figure: FigureName; node: string }[];
+  value: number;
+  limit: number;
+  unit: string;
+  met: boolean;
+  where: string;
+}
