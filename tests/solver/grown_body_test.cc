@@ -194,7 +194,8 @@ TEST(GrownBody, BothBackEndsSolveIt) {
     EXPECT_LT(m.figure[0].length_error_percent, 1e-9) << NameOf(backend);
     // The fingers take their part: the held fingertip's joint is turned.
     const int l = scene.body[0].FindLink("left_index_2");
-    EXPECT_GT(result.unknowns.edit.middleRows(3 + 3 * l, 3).cwiseAbs().maxCoeff(), 1e-4) << NameOf(backend);
+    EXPECT_GT(result.unknowns.edit.middleRows(3 + 3 * l, 3).cwiseAbs().maxCoeff(), 1e-4)
+        << NameOf(backend);
   }
   EXPECT_NEAR(cost[0] / cost[1], 1, 1e-2);
 }

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "solver/problem/problem.h"
-#include "solver/problem/terms/ray.h"
 #include "solver/problem/terms/pose_tracking.h"
+#include "solver/problem/terms/ray.h"
 #include "solver/problem/terms/root_tracking.h"
 #include "tests/solver/scene_fixture.h"
 
