@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "model/body/pass_through.h"
-#include "solver/optimizer/frame_solve.h"
+#include "solver/optimizer/spacetime.h"
 #include "solver/problem/clock.h"
 #include "solver/problem/problem.h"
 #include "solver/problem/terms/hold.h"
@@ -13,22 +13,15 @@
 namespace retarget::solver {
 namespace {
 
-// A target has been reached to within what a hand on a screen can tell (m).
-constexpr double kReached = 0.01;
-// The lead of a target (PoseSettings::lead_m) is halved where a solve gains less than this share of
-// it, down to the least, which is as short as a target that counts as reached.
-constexpr double kLeastGainOfLead = 0.02;
-constexpr double kLeastLead = kReached;  // m
-constexpr double kLeastGain = 1e-4;      // m of all drags together: less is no progress
+constexpr double kLeastGain = 1e-4;  // m of all drags together: less is no progress
+constexpr double kLeastLead = 0.01;  // m
+constexpr double kReached = 0.01;    // m
 // Elbows and knees of captured clips may bend sideways, as nobody knows their rigs' hinges; here
 // the hinges are the body's own.
 constexpr double kHingePlay = 10 * kDegree;
-constexpr double kLeastSeconds = 1e-3;  // for a solve at the end of the time: one iteration
-// Iterations before the poses are looked at again: few where the target itself moves on.
-constexpr int kIterationsLed = 3;
+constexpr double kLeastSeconds = 1e-3;
+constexpr int kIterationsLed = 3;  // the led target moves on
 constexpr int kIterationsPerSolve = 20;
-// Iterations in a row that gain little: the first may only have bent round a limb.
-constexpr int kFlatIterations = 2;
 
 using Poses = std::array<Pose, 2>;
 using Bodies = std::array<PosedBody, 2>;
@@ -121,27 +114,21 @@ Scene SceneOf(const PoseTask& task) {
   return scene;
 }
 
-FrameSolved SolveOnce(const PoseTask& task, const Poses& start, int iterations, double max_seconds,
+SolveResult SolveOnce(const PoseTask& task, const Poses& start, int iterations, double max_seconds,
                       const PoseSettings& settings, Poses* pose) {
   const Scene scene = SceneOf(task);
-  Problem problem(scene, settings.settings);
+  Settings one_frame = settings.settings;
+  one_frame.solve.max_iterations = iterations;
+  one_frame.solve.max_seconds = max_seconds;
+  Problem problem(scene, one_frame);
   problem.Add(std::make_unique<TargetTerm>("drag", task.drags), settings.drag);
   problem.Add(std::make_unique<TargetTerm>("pin", task.pins), settings.pin);
   problem.Add(std::make_unique<RayTerm>(task.drag_rays), settings.drag);
   problem.Add(std::make_unique<RayTerm>(task.pin_rays), settings.pin);
   std::array<Clip, 2> from;
   for (int f = 0; f < 2; ++f) from[f].frames = {start[f]};
-  Unknowns x = UnknownsFromPoses(scene, from);
-  const SolveSettings& solve = settings.settings.solve;
-  FrameSolveOptions options;
-  options.max_iterations = iterations;
-  options.max_seconds = max_seconds;
-  options.step_limit_m = solve.step_limit_m;
-  options.gli_jump = solve.gli_jump;
-  options.relative_decrease = solve.polish_decrease;
-  options.flat_iterations = kFlatIterations;
-  FrameSolved solved = SolveFrame(problem, {}, options, &x);
-  const std::array<Clip, 2> edited = EditedClips(scene, x);
+  SolveResult solved = SolveSpacetime(problem, UnknownsFromPoses(scene, from), nullptr);
+  const std::array<Clip, 2> edited = EditedClips(scene, solved.unknowns);
   for (int f = 0; f < 2; ++f) {
     (*pose)[f] = edited[f].frames[0];
     for (Quat& q : (*pose)[f].rotation) q.normalize();
@@ -164,7 +151,12 @@ PoseSettings DefaultPoseSettings() {
   w.hold = w.penetration = w.self_penetration = w.ground = 300;
   w.joint_limit = 100;
   w.tangle = 0;
-  pose.settings.solve.polish_decrease = 1e-3;
+  SolveSettings& solve = pose.settings.solve;
+  solve.backend = Backend::kBanded;
+  solve.threads = 1;
+  solve.stages = {1};
+  solve.max_seconds = 0;
+  solve.polish_decrease = 1e-3;
   return pose;
 }
 
@@ -183,7 +175,7 @@ PoseResult SolvePose(const PoseTask& task, const Poses& start, const PoseSetting
     const int iterations = std::min(settings.max_iterations - result.iterations,
                                     led ? kIterationsLed : kIterationsPerSolve);
     Poses next;
-    const FrameSolved solved =
+    const SolveResult solved =
         SolveOnce(Led(task, posed, lead), result.pose, iterations,
                   timed ? std::max(left, kLeastSeconds) : 0, settings, &next);
     result.iterations += std::max(solved.iterations, 1);
@@ -201,11 +193,11 @@ PoseResult SolvePose(const PoseTask& task, const Poses& start, const PoseSetting
     result.pose = next;
     posed = next_posed;
     result.stalled = solved.stalled;
-    const bool settled = solved.converged || solved.stalled;
+    const bool settled = solved.status == SolveStatus::kConverged;
     result.converged = led ? gain < kLeastGain && lead <= kLeastLead : settled;
     // Where little was gained the target is out of reach, or the way bends: a shorter lead bends
     // with it, and its linear model holds for short limbs too.
-    if (led && gain < kLeastGainOfLead * lead) lead = std::max(lead / 2, kLeastLead);
+    if (led && gain < 0.02 * lead) lead = std::max(lead / 2, kLeastLead);
   }
   if (errors.largest < kReached) result.blocked.reset();  // another way was found
   result.drag_error_m = errors.largest;

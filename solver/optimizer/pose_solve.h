@@ -34,9 +34,7 @@ struct PoseTask {
 };
 
 struct PoseSettings {
-  // Weights, of which 0 switches the term off; and of the solve step_limit_m, gli_jump and
-  // polish_decrease.
-  Settings settings;
+  Settings settings;     // weights and the solve's; a weight of 0 switches the term off
   double drag = 60;      // 1/m, weight of drags
   double pin = 600;      // 1/m, weight of pins
   double lead_m = 0.10;  // a target draws from no further than this: a far one is approached in

@@ -21,9 +21,10 @@ struct Drag {
   }
 };
 
-Drag DragRound(const TemplatePosture& posture, int figure, const char* node, double radius,
-               int steps) {
+Drag DragRound(const TemplatePosture& posture, Backend backend, int figure, const char* node,
+               double radius, int steps) {
   solver::PoseSettings settings = solver::DefaultPoseSettings();
+  settings.settings.solve.backend = backend;
   settings.max_iterations = 12;
   solver::PoseTask task;
   task.body = posture.body;
@@ -61,13 +62,15 @@ int Run(int steps) {
   } paths[] = {
       {1, "head_top", 0.1}, {0, "left_elbow", 0.05}, {0, "head_top", 0.1}, {1, "root", 0.05}};
   fmt::print("{} steps; per update: median and 99th percentile\n", steps);
-  for (const auto& path : paths) {
-    const Drag drag = DragRound(posture, path.figure, path.node, path.radius, steps);
-    fmt::print(
-        "{}/{:<11} {:6.2f} ms {:6.2f} ms  {:4.1f} iterations  largest error {:.1f} cm, "
-        "pins {:.1f} mm\n",
-        path.figure == 0 ? "a" : "b", path.node, drag.Percentile(0.5), drag.Percentile(0.99),
-        drag.iterations, 100 * drag.error_m, 1000 * drag.pin_m);
+  for (const Backend backend : {Backend::kBanded, Backend::kCeres}) {
+    for (const auto& path : paths) {
+      const Drag drag = DragRound(posture, backend, path.figure, path.node, path.radius, steps);
+      fmt::print(
+          "{:<7} {}/{:<11} {:6.2f} ms {:6.2f} ms  {:4.1f} iterations  largest error {:.1f} cm, "
+          "pins {:.1f} mm\n",
+          NameOf(backend), path.figure == 0 ? "a" : "b", path.node, drag.Percentile(0.5),
+          drag.Percentile(0.99), drag.iterations, 100 * drag.error_m, 1000 * drag.pin_m);
+    }
   }
   return 0;
 }
