@@ -5,13 +5,12 @@
 
 #include "solver/optimizer/kernels.h"
 #include "solver/optimizer/normal_equations.h"
-#include "solver/problem/clock.h"
 
 namespace retarget::solver {
 namespace {
 
 // Damping, times diag(J^T J). It starts almost undamped, as a frame starts near its neighbour's
-// solution or a little short of a target; below the least it changes no step any more.
+// solution; below the least it changes no step any more.
 constexpr double kInitialDamping = 1e-3;
 constexpr double kLeastDamping = 1e-4;
 constexpr double kEase = 0.2;     // after a step
@@ -33,20 +32,14 @@ class FrameSolver {
       : problem_(problem), task_(task), options_(options), x_(x) {}
 
   FrameSolved Run() {
-    const double started = SecondsNow();
     at_.node = NodesNow();
     at_.cost = Cost();
-    int flat = 0;
-    while (at_.iterations < options_.max_iterations && !at_.converged && !at_.stalled) {
-      if (options_.max_seconds > 0 && SecondsNow() - started > options_.max_seconds) break;
+    while (at_.iterations < options_.max_iterations) {
       const double before = at_.cost;
       Linearise();
-      at_.stalled = !Advance();
-      if (at_.stalled) break;
+      if (!Advance()) break;
       ++at_.iterations;
-      const bool is_flat = (before - at_.cost) / before < options_.relative_decrease;
-      flat = is_flat ? flat + 1 : 0;
-      at_.converged = flat >= options_.flat_iterations;
+      if ((before - at_.cost) / before < options_.relative_decrease) break;
     }
     SetFrame(false);  // free anchors stay where the frame ended
     return std::move(at_);

@@ -1,6 +1,7 @@
 // One frame of a problem, solved by itself: Levenberg-Marquardt on its dense normal equations. No
 // step moves a node too far or takes a limb through a limb of the other body. The quasi-static
-// start and the posing are made of it.
+// start is made of it. Posing is a clip of one frame to the spacetime solve instead (pose_solve.h):
+// the shipped templates were made by that and are reproduced to the last digit.
 #pragma once
 
 #include <vector>
@@ -12,12 +13,10 @@ namespace retarget::solver {
 
 struct FrameSolveOptions {
   int max_iterations = 8;
-  double max_seconds = 0;  // 0: no limit; else it stops after the iteration that reaches it
   double step_limit_m = 0.05;
   double gli_jump = 0.4;             // turns; a larger jump of a segment pair rejects the step
   double guard_reach = kGuardReach;  // m (LargestGliJump)
-  double relative_decrease = 1e-3;   // of the cost: iterations that gain less ...
-  int flat_iterations = 1;           // ... so many times in a row, end the solve
+  double relative_decrease = 1e-3;   // of the cost: an iteration that gains less is the last
 };
 
 // A contact whose anchor still goes where its node is.
@@ -39,9 +38,7 @@ struct FrameTask {
 struct FrameSolved {
   NodePositions node;
   double cost = 0;
-  int iterations = 0;      // accepted steps
-  bool converged = false;  // nothing is left to gain
-  bool stalled = false;    // no step was acceptable; neither: the iterations or the time ran out
+  int iterations = 0;  // accepted steps
 };
 
 // Solves frame task.t from the edit it has in `x`, and leaves the best there.

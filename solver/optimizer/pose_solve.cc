@@ -13,14 +13,19 @@
 namespace retarget::solver {
 namespace {
 
-constexpr double kLeastGain = 1e-4;  // m of all drags together: less is no progress
-constexpr double kLeastLead = 0.01;  // m
-constexpr double kReached = 0.01;    // m
+// A target counts as reached from here on (m).
+constexpr double kReached = 0.01;
+// The lead of a target (PoseSettings::lead_m) is halved where a solve gains less than this share of
+// it, down to the least: as short as a way that counts as reached.
+constexpr double kLeastGainOfLead = 0.02;
+constexpr double kLeastLead = kReached;  // m
+constexpr double kLeastGain = 1e-4;      // m of all drags together: less is no progress
 // Elbows and knees of captured clips may bend sideways, as nobody knows their rigs' hinges; here
 // the hinges are the body's own.
 constexpr double kHingePlay = 10 * kDegree;
-constexpr double kLeastSeconds = 1e-3;
-constexpr int kIterationsLed = 3;  // the led target moves on
+constexpr double kLeastSeconds = 1e-3;  // for a solve at the end of the time: one iteration
+// Iterations before the poses are looked at again: few where the led target itself moves on.
+constexpr int kIterationsLed = 3;
 constexpr int kIterationsPerSolve = 20;
 
 using Poses = std::array<Pose, 2>;
@@ -197,7 +202,7 @@ PoseResult SolvePose(const PoseTask& task, const Poses& start, const PoseSetting
     result.converged = led ? gain < kLeastGain && lead <= kLeastLead : settled;
     // Where little was gained the target is out of reach, or the way bends: a shorter lead bends
     // with it, and its linear model holds for short limbs too.
-    if (led && gain < 0.02 * lead) lead = std::max(lead / 2, kLeastLead);
+    if (led && gain < kLeastGainOfLead * lead) lead = std::max(lead / 2, kLeastLead);
   }
   if (errors.largest < kReached) result.blocked.reset();  // another way was found
   result.drag_error_m = errors.largest;
