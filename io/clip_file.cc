@@ -3,11 +3,11 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "io/gltf/container.h"
+#include "io/text/read_file.h"
 
 namespace retarget::io {
 namespace {
@@ -20,16 +20,6 @@ constexpr double kCmuLengthUnit = 0.45;  // `:units length` of CMU: of an inch
 bool IsFile(const std::string& path) {
   std::error_code error;
   return fs::is_regular_file(path, error);
-}
-
-std::string ReadBytes(const std::string& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) throw InputError(path + ": is a folder, expected a file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path + ": cannot be opened");
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  return bytes.str();
 }
 
 enum class Format { kBvh, kGltf, kAsf, kAmc, kUnknown };
@@ -195,9 +185,9 @@ ClipPath ParseClipName(const std::string& text, bool with_skeleton) {
 }
 
 ClipFile ReadClipFile(const ClipPath& path, double fps) {
-  std::string bytes = ReadBytes(path.path);
+  std::string bytes = ReadFile(path.path);
   return ParseClipFile(path, std::move(bytes),
-                       path.skeleton.empty() ? std::string() : ReadBytes(path.skeleton), fps);
+                       path.skeleton.empty() ? std::string() : ReadFile(path.skeleton), fps);
 }
 
 ClipFile ParseClipFile(const ClipPath& path, std::string bytes, const std::string& skeleton,
@@ -261,7 +251,7 @@ std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion
   std::vector<NamedBytes> files;
   for (const std::string& name : NamesOfClipFile(original, stem)) {
     if (!files.empty()) {
-      files.push_back({name, ReadBytes(gltf.folder + "/" + name)});
+      files.push_back({name, ReadFile(gltf.folder + "/" + name)});
       continue;
     }
     const ScaledGltf scaled = ScaleGltf(gltf, motion, stature_ratio);

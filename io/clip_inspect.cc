@@ -7,7 +7,7 @@
 
 #include "io/clip_file.h"
 #include "io/gltf/container.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 
 namespace retarget::io {
 namespace {

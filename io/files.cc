@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "io/text/read_file.h"
 #include "model/geometry/types.h"
 
 namespace retarget::io {
@@ -55,16 +55,6 @@ std::string TextOf(WriteRefusal::Kind kind, const std::string& path, const std::
 
 WriteRefusal::WriteRefusal(Kind kind, const std::string& path, const std::string& file)
     : InputError(TextOf(kind, path, file)), kind_(kind), path_(path), file_(file) {}
-
-std::string ReadFile(const std::string& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) throw InputError(path + ": is a folder, expected a file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path + ": cannot be opened");
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  return bytes.str();
-}
 
 std::string HashOf(const std::string& bytes) {
   uint64_t hash = 0xcbf29ce484222325u;

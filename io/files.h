@@ -8,7 +8,6 @@
 
 namespace retarget::io {
 
-std::string ReadFile(const std::string& path);  // throws InputError
 // FNV-1a of the bytes, 64 bits in hexadecimal: tells inputs apart, no more.
 std::string HashOf(const std::string& bytes);
 

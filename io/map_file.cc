@@ -11,8 +11,8 @@
 #include "io/recognition/map_joints.h"
 #include "io/recognition/recognise.h"
 #include "io/text/nearest_name.h"
-#include "io/text/yaml_message.h"
-#include "io/text/yaml_reader.h"
+#include "io/text/quoted.h"
+#include "io/text/yaml.h"
 #include "model/rig/tree.h"
 
 namespace retarget::io {
@@ -22,14 +22,14 @@ constexpr size_t kNearestShown = 3;
 
 class MapReader {
  public:
-  explicit MapReader(const Rig& rig) : rig_(rig), joint_of_(rig.joints.size(), nullptr) {}
+  explicit MapReader(const Rig& rig) : rig_(rig), joint_of_(rig.joints.size()) {}
 
-  JointMap Read(const YamlValue& joints) {
+  JointMap Read(const Value& joints) {
     std::vector<std::string> known = {"root", "spine", "neck", "head", "head_top"};
     for (const char* side : {"left_", "right_"}) {
       for (const SidePart& part : kSideParts) known.push_back(std::string(side) + part.name);
     }
-    CheckKeys(joints, known);
+    joints.CheckKeys(known);
     JointMap map;
     map.profile = "by hand";
     map.root = ReadJoint(joints, "root", true, -1);
@@ -45,7 +45,7 @@ class MapReader {
   }
 
  private:
-  JointMap::Side ReadSide(const YamlValue& joints, const std::string& prefix, int root) {
+  JointMap::Side ReadSide(const Value& joints, const std::string& prefix, int root) {
     JointMap::Side side;
     int above = root;
     for (const SidePart& part : kSideParts) {
@@ -60,29 +60,29 @@ class MapReader {
     return side;
   }
 
-  int ReadJoint(const YamlValue& joints, const std::string& name, bool required, int above) {
-    const YamlValue* value = joints.Find(name);
-    if (value == nullptr) {
-      if (required) Require(joints, name);
+  int ReadJoint(const Value& joints, const std::string& name, bool required, int above) {
+    const auto value = joints.Find(name);
+    if (!value) {
+      if (required) joints.Require(name);
       return -1;
     }
-    if (value->kind == YamlValue::Kind::kScalar && value->text == "none") {
-      if (required) Refuse(*value, "expected a bone, found none: this joint cannot be virtual");
+    if (value->kind() == Value::Kind::kScalar && value->text() == "none") {
+      if (required) value->Refuse("expected a bone, found none: this joint cannot be virtual");
       return -1;
     }
     return ReadBone(*value, above);
   }
 
-  std::vector<int> ReadChain(const YamlValue& joints, const std::string& name, int above) {
+  std::vector<int> ReadChain(const Value& joints, const std::string& name, int above) {
     std::vector<int> chain;
-    const YamlValue* value = joints.Find(name);
-    if (value == nullptr) return chain;
-    if (value->kind != YamlValue::Kind::kList) {
+    const auto value = joints.Find(name);
+    if (!value) return chain;
+    if (value->kind() != Value::Kind::kList) {
       const int bone = ReadJoint(joints, name, false, above);
       if (bone >= 0) chain.push_back(bone);
       return chain;
     }
-    for (const YamlValue& item : value->children) {
+    for (const Value& item : value->Items()) {
       chain.push_back(ReadBone(item, above));
       above = chain.back();
     }
@@ -90,39 +90,39 @@ class MapReader {
   }
 
   // A bone by name, or by "#12", its place in the file from 0; it must hang from `above`.
-  int ReadBone(const YamlValue& value, int above) {
-    if (value.kind != YamlValue::Kind::kScalar) RefuseExpecting(value, "the name of a bone");
-    const int bone = value.text.starts_with("#") ? NumberedBone(value) : NamedBone(value);
+  int ReadBone(const Value& value, int above) {
+    if (value.kind() != Value::Kind::kScalar) value.RefuseExpecting("the name of a bone");
+    const int bone = value.text().starts_with("#") ? NumberedBone(value) : NamedBone(value);
     const auto b = static_cast<size_t>(bone);
-    if (joint_of_[b] != nullptr) {
-      Refuse(value, fmt::format("{} plays {} already", ShownText(value.text), joint_of_[b]->path));
+    if (!joint_of_[b].empty()) {
+      value.Refuse(fmt::format("{} plays {} already", Quoted(value.text()), joint_of_[b]));
     }
-    joint_of_[b] = &value;
+    joint_of_[b] = value.path();
     if (above >= 0 && (bone == above || !DescendsFrom(rig_, bone, above))) {
-      Refuse(value, fmt::format("{} does not hang from {}", ShownText(value.text),
-                                ShownText(rig_.joints[static_cast<size_t>(above)].name)));
+      value.Refuse(fmt::format("{} does not hang from {}", Quoted(value.text()),
+                               Quoted(rig_.joints[static_cast<size_t>(above)].name)));
     }
     return bone;
   }
 
-  int NumberedBone(const YamlValue& value) const {
+  int NumberedBone(const Value& value) const {
     int number = -1;
-    const char* end = value.text.data() + value.text.size();
-    const auto [stop, error] = std::from_chars(value.text.data() + 1, end, number);
+    const char* end = value.text().data() + value.text().size();
+    const auto [stop, error] = std::from_chars(value.text().data() + 1, end, number);
     if (error != std::errc() || stop != end || number < 0 || number >= rig_.num_joints()) {
-      Refuse(value, fmt::format("expected #0 to #{}, found {}", rig_.num_joints() - 1,
-                                ShownText(value.text)));
+      value.Refuse(
+          fmt::format("expected #0 to #{}, found {}", rig_.num_joints() - 1, Quoted(value.text())));
     }
     return number;
   }
 
-  int NamedBone(const YamlValue& value) const {
-    const int bone = rig_.Find(value.text);
-    if (bone < 0) Refuse(value, "no bone " + ShownText(value.text) + Nearest(value.text));
+  int NamedBone(const Value& value) const {
+    const int bone = rig_.Find(value.text());
+    if (bone < 0) value.Refuse("no bone " + Quoted(value.text()) + Nearest(value.text()));
     for (int j = bone + 1; j < rig_.num_joints(); ++j) {
-      if (rig_.joints[static_cast<size_t>(j)].name != value.text) continue;
-      Refuse(value, fmt::format("several bones are called {}: give \"#{}\" or \"#{}\"",
-                                ShownText(value.text), bone, j));
+      if (rig_.joints[static_cast<size_t>(j)].name != value.text()) continue;
+      value.Refuse(fmt::format("several bones are called {}: give \"#{}\" or \"#{}\"",
+                               Quoted(value.text()), bone, j));
     }
     return bone;
   }
@@ -135,35 +135,36 @@ class MapReader {
     std::sort(ranked.begin(), ranked.end());
     std::string out;
     for (size_t n = 0; n < std::min(kNearestShown, ranked.size()); ++n) {
-      out += (n == 0 ? ", the nearest names are " : ", ") + ShownText(ranked[n].second);
+      out += (n == 0 ? ", the nearest names are " : ", ") + Quoted(ranked[n].second);
     }
     return out;
   }
 
   const Rig& rig_;
-  std::vector<const YamlValue*> joint_of_;  // by bone
+  std::vector<std::string> joint_of_;  // by bone; empty: none
 };
 
 }  // namespace
 
 MapFile ParseMap(const std::string& text, const std::string& name, const Rig& rig) {
-  const YamlValue document = ParseYaml(text, name);
-  CheckKeys(document, {"format", "units", "up", "joints"});
-  ReadInteger(Require(document, "format"), 1, 1);
+  const Document document = ParseYaml(text, name);
+  const Value root = document.root();
+  root.CheckKeys({"format", "units", "up", "joints"});
+  root.Require("format").Integer(1, 1);
   MapFile file;
-  if (const YamlValue* units = document.Find("units")) {
-    file.metres_per_unit = ParseUnits(ReadText(*units));
-    if (!file.metres_per_unit) RefuseExpecting(*units, "cm, m, mm, in, cmu or metres per unit");
+  if (const auto units = root.Find("units")) {
+    file.metres_per_unit = ParseUnits(units->Text());
+    if (!file.metres_per_unit) units->RefuseExpecting("cm, m, mm, in, cmu or metres per unit");
   }
-  if (const YamlValue* up = document.Find("up")) {
-    file.up = ReadName(*up, "axis", {"y", "z"}) == 0 ? 'y' : 'z';
+  if (const auto up = root.Find("up")) {
+    file.up = up->Name("axis", {"y", "z"}) == 0 ? 'y' : 'z';
   }
-  file.map = MapReader(rig).Read(Require(document, "joints"));
+  file.map = MapReader(rig).Read(root.Require("joints"));
   return file;
 }
 
 MapFile ReadMap(const std::string& path, const Rig& rig) {
-  return ParseMap(ReadTextFile(path, "a joint map"), path, rig);
+  return ParseMap(ReadYamlFile(path, "a joint map"), path, rig);
 }
 
 }  // namespace retarget::io

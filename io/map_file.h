@@ -1,5 +1,5 @@
 // Map files: which bone of a rig plays which joint, written by hand or by `retarget map --yaml`
-// (docs/map_format.md). The reader is strict: see io/text/yaml_reader.h.
+// (docs/map_format.md). The reader is strict: see io/text/document.h.
 #pragma once
 
 #include <optional>

@@ -8,8 +8,8 @@
 #include "io/map_file.h"
 #include "io/recognition/joint_profiles.h"
 #include "io/recognition/map_joints.h"
-#include "io/text/printable.h"
-#include "io/text/yaml_reader.h"
+#include "io/text/quoted.h"
+#include "io/text/yaml.h"
 
 namespace retarget::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/text/nearest_name.h"
-#include "io/text/yaml_reader.h"
+#include "io/text/yaml.h"
 
 namespace retarget::io {
 namespace {
@@ -40,26 +40,26 @@ std::vector<std::string> NamesIn(const std::string& group) {
 }
 
 // One overload per type of setting, so that VisitSettings finds its way.
-void ReadInto(double* out, const YamlValue& value, const char* unit, double least, double most) {
-  *out = ReadNumber(value, least, most, unit);
+void ReadInto(double* out, const Value& value, const char* unit, double least, double most) {
+  *out = value.Number(least, most, unit);
 }
-void ReadInto(int* out, const YamlValue& value, const char*, double least, double most) {
-  *out = ReadInteger(value, static_cast<int>(least), static_cast<int>(most));
+void ReadInto(int* out, const Value& value, const char*, double least, double most) {
+  *out = value.Integer(static_cast<int>(least), static_cast<int>(most));
 }
 template <typename Enum>
-void ReadInto(Enum* out, const YamlValue& value, const char*, double, double) {
+void ReadInto(Enum* out, const Value& value, const char*, double, double) {
   const auto& names = kNamesOf<Enum>;
-  *out = static_cast<Enum>(ReadName(value, "value", {names.begin(), names.end()}));
+  *out = static_cast<Enum>(value.Name("value", {names.begin(), names.end()}));
 }
-void ReadInto(std::vector<double>* out, const YamlValue& value, const char*, double, double) {
-  *out = ParseStages(ReadText(value));
+void ReadInto(std::vector<double>* out, const Value& value, const char*, double, double) {
+  *out = ParseStages(value.Text());
 }
 
-// Sets the setting that `value.path` names; it must exist.
-void Assign(Settings* settings, const YamlValue& value) {
+// Sets the setting that `value.path()` names; it must exist.
+void Assign(Settings* settings, const Value& value) {
   VisitSettings(*settings, [&](const char* key, auto& setting, const char* unit, const char*,
                                double least, double most) {
-    if (value.path == key) ReadInto(&setting, value, unit, least, most);
+    if (value.path() == key) ReadInto(&setting, value, unit, least, most);
   });
 }
 
@@ -95,37 +95,38 @@ std::string Trimmed(const std::string& text) {
 }  // namespace
 
 Settings ReadSettings(const std::string& path) {
-  return ParseSettings(ReadTextFile(path, "a settings file"), path);
+  return ParseSettings(ReadYamlFile(path, "a settings file"), path);
 }
 
 Settings ParseSettings(const std::string& text, const std::string& name) {
   Settings settings;
-  const YamlValue root = ParseYaml(text, name);
-  if (root.kind == YamlValue::Kind::kNothing) return settings;
-  CheckKeys(root, Groups());
-  for (const YamlValue& group : root.children) {
-    if (group.kind == YamlValue::Kind::kNothing) continue;  // every key of it is commented out
-    CheckKeys(group, NamesIn(group.key));
-    for (const YamlValue& value : group.children) Assign(&settings, value);
+  const Document document = ParseYaml(text, name);
+  const Value root = document.root();
+  if (root.is_null()) return settings;
+  root.CheckKeys(Groups());
+  for (const Value& group : root.Items()) {
+    if (group.is_null()) continue;  // every key of it is commented out
+    group.CheckKeys(NamesIn(group.key()));
+    for (const Value& value : group.Items()) Assign(&settings, value);
   }
   return settings;
 }
 
 void SetByName(Settings* settings, const std::string& assignment, const std::string& name) {
   const size_t equals = assignment.find('=');
-  YamlValue value;
-  value.kind = YamlValue::Kind::kScalar;
-  value.place = name;
-  value.text = assignment;
-  if (equals == std::string::npos) RefuseExpecting(value, "key=value");
-  value.path = Trimmed(assignment.substr(0, equals));
-  value.text = Trimmed(assignment.substr(equals + 1));
-
-  YamlValue key = value;
-  key.path.clear();
-  key.text = value.path;
-  ReadName(key, "key", AllKeys());
-  Assign(settings, value);
+  const auto scalar = [](const std::string& text) {
+    return DocumentNode{DocumentNode::Kind::kScalar, text, false, "", 0};
+  };
+  if (equals == std::string::npos) {
+    Document(Notation::kYaml, name, scalar(assignment)).root().RefuseExpecting("key=value");
+  }
+  const std::string key = Trimmed(assignment.substr(0, equals));
+  Document(Notation::kYaml, name, scalar(key)).root().Name("key", AllKeys());
+  DocumentNode map{
+      DocumentNode::Kind::kMap, "", false, "", 0, {scalar(Trimmed(assignment.substr(equals + 1)))}};
+  map.children[0].key = key;
+  const Document document(Notation::kYaml, name, map);
+  Assign(settings, document.root().Require(key));
 }
 
 std::string FormatSettings(const Settings& settings) {

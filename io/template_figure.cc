@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/template_keys.h"
+#include "io/template_parts.h"
 #include "model/geometry/so3.h"
 
 namespace retarget::io {
@@ -37,67 +38,65 @@ std::vector<std::string> WithoutFirst(std::vector<std::string> names) {
 }
 
 // A rotation vector in degrees.
-Quat ReadRotation(const YamlValue& value) {
-  return ExpSo3(kDegree * ReadVector(value, kMaxTurn, "deg"));
-}
+Quat ReadRotation(const Value& value) { return ExpSo3(kDegree * value.Vector(kMaxTurn, "deg")); }
 
-void ReadLength(const YamlValue& value, double* out) {
-  *out = ReadNumber(value, kMinLength, kMaxLength, "m");
+void ReadLength(const Value& value, double* out) {
+  *out = value.Number(kMinLength, kMaxLength, "m");
 }
-void ReadLength(const YamlValue& value, Vec3* out) { *out = ReadVector(value, kMaxLength, "m"); }
+void ReadLength(const Value& value, Vec3* out) { *out = value.Vector(kMaxLength, "m"); }
 
-BodyMeasures::Side ReadSide(const YamlValue& value) {
-  CheckKeys(value, SideKeys());
+BodyMeasures::Side ReadSide(const Value& value) {
+  value.CheckKeys(SideKeys());
   BodyMeasures::Side side;
-  VisitSide(side, [&](const char* key, auto& length) { ReadLength(Require(value, key), &length); });
+  VisitSide(side, [&](const char* key, auto& length) { ReadLength(value.Require(key), &length); });
   return side;
 }
 
-BodyMeasures ReadLengths(const YamlValue& value) {
-  CheckKeys(value, LengthKeys());
+BodyMeasures ReadLengths(const Value& value) {
+  value.CheckKeys(LengthKeys());
   BodyMeasures measures;
   VisitTrunk(measures,
-             [&](const char* key, auto& length) { ReadLength(Require(value, key), &length); });
-  measures.left = ReadSide(Require(value, "left"));
-  measures.right = ReadSide(Require(value, "right"));
+             [&](const char* key, auto& length) { ReadLength(value.Require(key), &length); });
+  measures.left = ReadSide(value.Require("left"));
+  measures.right = ReadSide(value.Require("right"));
   const double stature = StatureOf(measures);
   if (!(stature >= kMinStature && stature <= kMaxStature)) {
-    Refuse(value, fmt::format("expected lengths of a stature from {} to {} m, found {:.3g} m",
-                              kMinStature, kMaxStature, stature));
+    value.Refuse(fmt::format("expected lengths of a stature from {} to {} m, found {:.3g} m",
+                             kMinStature, kMaxStature, stature));
   }
   return measures;
 }
 
 // The body of a figure: `stature` or `lengths`, and `radii`.
-Body ReadBody(const YamlValue& figure) {
-  const YamlValue* lengths = figure.Find("lengths");
-  const bool has_stature = figure.Find("stature") != nullptr;
-  if (has_stature == (lengths != nullptr)) {
-    Refuse(figure, fmt::format("expected either stature or lengths, found {}",
-                               has_stature ? "both" : "neither"));
+Body ReadBody(const Value& figure) {
+  const auto lengths = figure.Find("lengths");
+  const bool has_stature = figure.Has("stature");
+  if (has_stature == lengths.has_value()) {
+    figure.Refuse(fmt::format("expected either stature or lengths, found {}",
+                              has_stature ? "both" : "neither"));
   }
-  Body body = StandardBody(lengths ? ReadLengths(*lengths)
-                                   : AverageMeasures(ReadNumber(Require(figure, "stature"),
-                                                                kMinStature, kMaxStature, "m")));
-  if (const YamlValue* radii = figure.Find("radii")) {
-    CheckKeys(*radii, WithoutFirst(NodeNames(body)));
-    for (const YamlValue& radius : radii->children) {
-      body.nodes[body.FindNode(radius.key)].radius = ReadNumber(radius, kMinLength, 1, "m");
+  Body body = StandardBody(
+      lengths ? ReadLengths(*lengths)
+              : AverageMeasures(figure.Require("stature").Number(kMinStature, kMaxStature, "m")));
+  if (const auto radii = figure.Find("radii")) {
+    radii->CheckKeys(WithoutFirst(NodeNames(body)));
+    for (const Value& radius : radii->Items()) {
+      body.nodes[body.FindNode(radius.key())].radius = radius.Number(kMinLength, 1, "m");
     }
   }
   return body;
 }
 
-Pose ReadPose(const YamlValue& figure, const Body& body) {
+Pose ReadPose(const Value& figure, const Body& body) {
   Pose pose = RestPose(body);
-  const YamlValue& root = Require(figure, "root");
-  CheckKeys(root, {"position", "rotation"});
-  pose.root_position = ReadVector(Require(root, "position"), kMaxPosition, "m");
-  if (const YamlValue* rotation = root.Find("rotation")) pose.rotation[0] = ReadRotation(*rotation);
-  if (const YamlValue* joints = figure.Find("joints")) {
-    CheckKeys(*joints, WithoutFirst(LinkNames(body)));
-    for (const YamlValue& joint : joints->children) {
-      pose.rotation[body.FindLink(joint.key)] = ReadRotation(joint);
+  const Value root = figure.Require("root");
+  root.CheckKeys({"position", "rotation"});
+  pose.root_position = root.Require("position").Vector(kMaxPosition, "m");
+  if (const auto rotation = root.Find("rotation")) pose.rotation[0] = ReadRotation(*rotation);
+  if (const auto joints = figure.Find("joints")) {
+    joints->CheckKeys(WithoutFirst(LinkNames(body)));
+    for (const Value& joint : joints->Items()) {
+      pose.rotation[body.FindLink(joint.key())] = ReadRotation(joint);
     }
   }
   return pose;
@@ -105,12 +104,8 @@ Pose ReadPose(const YamlValue& figure, const Body& body) {
 
 }  // namespace
 
-Vec3 ReadVector(const YamlValue& value, double most, const std::string& unit) {
-  return ReadNumbers(value, 3, -most, most, unit);
-}
-
-void ReadFigure(const YamlValue& value, Body* body, Pose* pose) {
-  CheckKeys(value, {"stature", "lengths", "radii", "root", "joints"});
+void ReadFigure(const Value& value, Body* body, Pose* pose) {
+  value.CheckKeys({"stature", "lengths", "radii", "root", "joints"});
   *body = ReadBody(value);
   *pose = ReadPose(value, *body);
 }

@@ -10,7 +10,7 @@
 
 #include "io/template_file.h"
 #include "io/template_keys.h"
-#include "io/text/yaml_reader.h"
+#include "io/text/yaml.h"
 #include "model/geometry/so3.h"
 
 namespace retarget::io {

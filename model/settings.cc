@@ -17,14 +17,24 @@ std::string StagesText(const std::vector<double>& stages) {
   return text;
 }
 
+namespace {
+
+[[noreturn]] void RefuseStages(const std::string& text) {
+  throw InputError("solve.stages: \"" + text + "\" is not a list of factors that ends with 1");
+}
+
+}  // namespace
+
+void CheckStages(const std::vector<double>& stages) {
+  if (stages.empty() || stages.back() != 1) RefuseStages(StagesText(stages));
+}
+
 std::vector<double> ParseStages(const std::string& text) {
   std::istringstream in(text);
   std::vector<double> stages;
   double factor;
   while (in >> factor) stages.push_back(factor);
-  if (!in.eof() || stages.empty() || stages.back() != 1) {
-    throw InputError("solve.stages: \"" + text + "\" is not a list of factors that ends with 1");
-  }
+  if (!in.eof() || stages.empty() || stages.back() != 1) RefuseStages(text);
   return stages;
 }
 

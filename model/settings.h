@@ -27,10 +27,11 @@ template <typename Enum>
 requires std::is_enum_v<Enum>
 const char* NameOf(Enum value) { return kNamesOf<Enum>[static_cast<size_t>(value)]; }
 
-// Factors of the contact weights as text, "0.03 0.1 0.3 1", and back: a list that ends with 1, else
-// it throws InputError.
+// Factors of the contact weights (solve.stages) as text, "0.03 0.1 0.3 1", and back. A list ends
+// with 1: else ParseStages and CheckStages throw InputError.
 std::string StagesText(const std::vector<double>& stages);
 std::vector<double> ParseStages(const std::string& text);
+void CheckStages(const std::vector<double>& stages);
 
 // Weights of the residual terms: cost = 1/2 sum (weight * residual)^2, residuals in natural units.
 struct Weights {

@@ -6,6 +6,7 @@
 #include "solver/metrics/requirements.h"
 #include "solver/problem/clock.h"
 #include "solver/start/start.h"
+#include "solver/start/weak_tags.h"
 
 namespace retarget::solver {
 namespace {
@@ -25,11 +26,10 @@ std::string WithNumber(const std::string& text, double value) {
 void WarnOfWeakTags(RetargetResult* result) {
   for (const HeldTangle& held : result->scene.tangles) {
     const std::string who = Describe(result->scene, held.tag.tangle);
-    const double gli = std::abs(held.tag.tangle.gli);
-    if (gli < 0.6) {
-      result->warnings.push_back(
-          WithNumber("tag " + who + " is weak in the template: |GLI| ", gli));
-    } else if (held.tag.rho < 0.1) {
+    if (IsWeak(held.tag)) {
+      result->warnings.push_back(WithNumber("tag " + who + " is weak in the template: |GLI| ",
+                                            std::abs(held.tag.tangle.gli)));
+    } else if (IsEasilyLost(held.tag)) {
       result->warnings.push_back(
           WithNumber("tag " + who + " is easily lost: robustness radius ", held.tag.rho));
     }

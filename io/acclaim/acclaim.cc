@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "io/acclaim/skeleton.h"
 #include "io/acclaim/text.h"
 #include "io/text/cursor.h"
 #include "io/text/nearest_name.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
+#include "io/text/read_file.h"
 #include "model/geometry/euler_angles.h"
 
 namespace retarget::io {
@@ -94,7 +93,7 @@ class MotionReader {
     if (lines_.words().size() != values.size() + 1) {
       lines_.Fail(fmt::format("{} numbers", lines_.words().size() - 1),
                   fmt::format("{}, one per degree of freedom of {}", values.size(),
-                              bvh::Quoted(lines_.key())));
+                              QuotedWord(lines_.key())));
     }
     if (seen_in_[joint] == num_frames_) {
       lines_.FailAtWord(lines_.key(), "each bone once per frame");
@@ -137,7 +136,7 @@ class MotionReader {
     if (!bone.dofs.empty() && seen_in_[j] >= 0 && seen_in_[j] < num_frames_ &&
         num_left_out_++ == 0) {
       file_.warnings.push_back(fmt::format("frame {:.0f} leaves out {}: it stays as it was",
-                                           number_, bvh::Quoted(skeleton_.rig.joints[j].name)));
+                                           number_, QuotedWord(skeleton_.rig.joints[j].name)));
     }
   }
 
@@ -145,7 +144,7 @@ class MotionReader {
   void ListBones() {
     for (size_t j = 0; j < values_.size(); ++j) {
       if (seen_in_[j] >= 0 || values_[j].empty()) continue;
-      file_.warnings.push_back("no frame names " + bvh::Quoted(skeleton_.rig.joints[j].name) +
+      file_.warnings.push_back("no frame names " + QuotedWord(skeleton_.rig.joints[j].name) +
                                ": it stays at rest");
       file_.amc_order.push_back(static_cast<int>(j));
     }
@@ -164,16 +163,6 @@ class MotionReader {
   int num_frames_ = 0, num_gaps_ = 0, num_left_out_ = 0;
   size_t header_end_ = 0;
 };
-
-std::string ReadText(const std::string& path, const char* kind) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || in.bad() || text.str().empty()) {
-    throw InputError(path + ": found no readable file, expected an " + kind + " file");
-  }
-  return text.str();
-}
 
 }  // namespace
 
@@ -200,8 +189,8 @@ AcclaimFile ParseAcclaim(std::string_view asf_text, const std::string& asf_name,
 }
 
 AcclaimFile ReadAcclaim(const std::string& asf_path, const std::string& amc_path, double fps) {
-  return ParseAcclaim(ReadText(asf_path, "ASF"), asf_path, ReadText(amc_path, "AMC"), amc_path,
-                      fps);
+  return ParseAcclaim(ReadFilledFile(asf_path, "an ASF file"), asf_path,
+                      ReadFilledFile(amc_path, "an AMC file"), amc_path, fps);
 }
 
 }  // namespace retarget::io

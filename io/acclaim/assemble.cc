@@ -5,6 +5,7 @@
 
 #include "io/acclaim/skeleton.h"
 #include "io/text/cursor.h"
+#include "io/text/quoted.h"
 #include "model/geometry/euler_angles.h"
 
 namespace retarget::io::acclaim {
@@ -71,8 +72,7 @@ void Assemble(const std::vector<BoneBlock>& blocks, const LineReader& lines, Ske
   }
   for (size_t b = 0; b < blocks.size(); ++b) {
     if (joint_of_block[b] < 0) {
-      lines.Fail("bone " + bvh::Quoted(blocks[b].name) + " apart from the root",
-                 "it in :hierarchy");
+      lines.Fail("bone " + QuotedWord(blocks[b].name) + " apart from the root", "it in :hierarchy");
     }
     skeleton->joint_of_name[LowerCase(blocks[b].name)] = joint_of_block[b];
   }

@@ -9,7 +9,7 @@
 #include "io/acclaim/text.h"
 #include "io/text/cursor.h"
 #include "io/text/nearest_name.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 #include "model/geometry/euler_angles.h"
 
 namespace retarget::io::acclaim {
@@ -172,16 +172,16 @@ class SkeletonReader {
     }
     if (bone.name.empty()) lines_.Fail("the end of a bone", "its name");
     if (!has_direction || !has_length) {
-      lines_.Fail("the end of bone " + bvh::Quoted(bone.name), "its direction and length");
+      lines_.Fail("the end of bone " + QuotedWord(bone.name), "its direction and length");
     }
     const double norm = bone.direction.norm();
     if (norm < 1e-9 && bone.length > 0) {
-      lines_.Fail("no direction of bone " + bvh::Quoted(bone.name), "one that is not zero");
+      lines_.Fail("no direction of bone " + QuotedWord(bone.name), "one that is not zero");
     }
     if (norm > 0) bone.direction /= norm;
     const int joint = static_cast<int>(bones_.size());
     if (!out_.joint_of_name.emplace(LowerCase(bone.name), joint).second) {
-      lines_.Fail("a second bone " + bvh::Quoted(bone.name), "each name once");
+      lines_.Fail("a second bone " + QuotedWord(bone.name), "each name once");
     }
     bones_.push_back(std::move(bone));
   }

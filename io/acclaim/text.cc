@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/text/cursor.h"
+#include "io/text/quoted.h"
 #include "model/geometry/types.h"
 
 namespace retarget::io::acclaim {
@@ -47,7 +48,7 @@ void LineReader::Fail(const std::string& found, const std::string& expected) con
 }
 
 void LineReader::FailAtWord(std::string_view word, const std::string& expected) const {
-  Fail(bvh::Quoted(word), expected);
+  Fail(QuotedWord(word), expected);
 }
 
 double LineReader::Number(size_t index, const std::string& what) const {

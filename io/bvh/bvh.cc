@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "io/bvh/hierarchy.h"
 #include "io/text/cursor.h"
+#include "io/text/quoted.h"
+#include "io/text/read_file.h"
 #include "model/geometry/euler_angles.h"
 
 namespace retarget::io {
@@ -146,7 +146,7 @@ void WarnOfDuplicateNames(BvhFile* file) {
   std::set<std::string_view> seen, told;
   for (const RigJoint& joint : file->motion.rig.joints) {
     if (!seen.insert(joint.name).second && told.insert(joint.name).second && told.size() <= 5) {
-      file->warnings.push_back("joint name " + bvh::Quoted(joint.name) + " occurs more than once");
+      file->warnings.push_back("joint name " + QuotedWord(joint.name) + " occurs more than once");
     }
   }
 }
@@ -177,13 +177,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
 }
 
 BvhFile ReadBvh(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || in.bad() || text.str().empty()) {
-    throw InputError(path + ": found no readable file, expected a BVH file");
-  }
-  return ParseBvh(text.str(), path);
+  return ParseBvh(ReadFilledFile(path, "a BVH file"), path);
 }
 
 }  // namespace retarget::io

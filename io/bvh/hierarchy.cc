@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "io/bvh/bvh.h"
+#include "io/text/quoted.h"
 
 namespace retarget::io::bvh {
 namespace {
@@ -91,7 +92,8 @@ class HierarchyReader {
       ReadEndSite(joint.joint);
     } else if (word == "}") {
       if (!joint.has_offset) {
-        cursor_.Fail("the end of joint " + Quoted(out_.rig.joints[joint.joint].name), "its OFFSET");
+        cursor_.Fail("the end of joint " + QuotedWord(out_.rig.joints[joint.joint].name),
+                     "its OFFSET");
       }
       open_.pop_back();
     } else {
@@ -101,7 +103,7 @@ class HierarchyReader {
 
   void ReadEndSite(int joint) {
     const std::string_view rest = cursor_.RestAsName();
-    if (!SameWord(rest.substr(0, 4), "Site")) cursor_.Fail(Quoted(rest), "Site after End");
+    if (!SameWord(rest.substr(0, 4), "Site")) cursor_.Fail(QuotedWord(rest), "Site after End");
     ExpectBrace();
     if (const auto word = cursor_.Next(); !SameWord(word, "OFFSET")) {
       cursor_.FailAtToken(word, "OFFSET of the End Site");
@@ -110,7 +112,7 @@ class HierarchyReader {
     if (const auto word = cursor_.Next(); word != "}") cursor_.FailAtToken(word, "}");
     if (out_.rig.joints[joint].end_site) {
       out_.warnings.push_back(fmt::format("line {}: joint {} has a second End Site, ignored",
-                                          cursor_.line(), Quoted(out_.rig.joints[joint].name)));
+                                          cursor_.line(), QuotedWord(out_.rig.joints[joint].name)));
     } else {
       out_.rig.joints[joint].end_site = point;
     }

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 #include "model/geometry/types.h"
 
 namespace retarget::io {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 #include "model/geometry/types.h"
 
 namespace retarget::io {

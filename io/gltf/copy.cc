@@ -7,7 +7,7 @@
 
 #include "io/gltf/container.h"
 #include "io/gltf/extensions.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 #include "model/geometry/types.h"
 
 namespace retarget::io {

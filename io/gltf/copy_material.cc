@@ -3,7 +3,7 @@
 
 #include "io/gltf/copy.h"
 #include "io/gltf/image.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 
 namespace retarget::io {
 

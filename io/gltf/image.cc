@@ -1,10 +1,10 @@
 #include "io/gltf/image.h"
 
 #include <cctype>
-#include <fstream>
 #include <iterator>
 
 #include "io/gltf/load.h"
+#include "io/text/read_file.h"
 
 namespace retarget::io {
 namespace {
@@ -45,10 +45,7 @@ std::optional<std::string> ReadUri(const std::string& uri, const std::string& fo
   if (folder.empty()) return std::nullopt;
   const std::string path = folder + "/" + Unescaped(uri);
   if (!IsFileInside(path, folder)) return std::nullopt;
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) return std::nullopt;
-  return bytes;
+  return TryReadFile(path);
 }
 
 std::string MediaTypeOf(std::string_view image) {

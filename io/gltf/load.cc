@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "io/gltf/check.h"
 #include "io/gltf/container.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
+#include "io/text/read_file.h"
 #include "model/geometry/types.h"
 
 namespace retarget::io {
@@ -20,16 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-// What a file says of itself, cut to one short line.
-std::string OneLine(std::string text) {
-  constexpr size_t kLongest = 160;
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  while (text.ends_with(' ')) text.pop_back();
-  return text;
-}
 
 json ParseJson(std::string_view text, const std::string& name) {
   try {
@@ -64,9 +54,9 @@ tinygltf::FsCallbacks Sandbox(std::string* folder) {
   };
   callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
                                const std::string& path, void*) {
-    std::ifstream in(path, std::ios::binary);
-    out->assign(std::istreambuf_iterator<char>(in), {});
-    return !in.bad();
+    const std::optional<std::string> bytes = TryReadFile(path);
+    if (bytes) out->assign(bytes->begin(), bytes->end());
+    return bytes.has_value();
   };
   callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
                                 void*) { return false; };

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "io/gltf/character.h"
@@ -13,15 +11,14 @@
 #include "io/gltf/skeleton.h"
 #include "io/gltf/tracks.h"
 #include "io/gltf/vrm.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
+#include "io/text/read_file.h"
 
 namespace retarget::io {
 namespace {
 
 // A bound that no real file reaches, so that a damaged one cannot ask for all memory.
 constexpr size_t kMostJointFrames = 20'000'000;
-
-std::string Quoted(const std::string& text) { return "\"" + Printable(text) + "\""; }
 
 // The selected animation, or -1 where the file has none.
 int ChooseAnimation(const tinygltf::Model& model, const GltfSelect& wanted, const std::string& name,
@@ -167,15 +164,8 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
 }
 
 GltfClip ReadGltf(const std::string& path, const GltfSelect& select) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream bytes;
-  if (in) bytes << in.rdbuf();
-  if (!in || in.bad()) {
-    throw InputError(path + ": found no readable file, expected a glTF file");
-  }
-  std::string folder = std::filesystem::path(path).parent_path();
-  if (folder.empty()) folder = ".";
-  return ParseGltf(std::move(bytes).str(), path, folder, select);
+  const std::string folder = std::filesystem::path(path).parent_path();
+  return ParseGltf(ReadFile(path, "a glTF file"), path, folder.empty() ? "." : folder, select);
 }
 
 }  // namespace retarget::io

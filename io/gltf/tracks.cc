@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "io/bvh/bvh.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 
 namespace retarget::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 
 namespace retarget::io {
 namespace {

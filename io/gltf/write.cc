@@ -15,29 +15,12 @@
 #include "io/gltf/clip.h"
 #include "io/gltf/container.h"
 #include "io/gltf/splice.h"
+#include "io/text/base64.h"
 
 namespace retarget::io {
 namespace {
 
 using nlohmann::json;
-
-std::string Base64(std::string_view bytes) {
-  static constexpr char kDigits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    const size_t count = std::min<size_t>(3, bytes.size() - i);
-    for (size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      out.push_back(k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=');
-    }
-  }
-  return out;
-}
 
 // What the animation says of one node, key by key.
 struct NodeKeys {
@@ -246,7 +229,7 @@ std::string FormatGltf(const GltfClip& original, const RigMotion& motion, double
     splice.Append("buffers",
                   fmt::format("{{\"byteLength\":{},\"uri\":\"data:application/octet-stream;base64,"
                               "{}\"}}",
-                              writer.data().size(), Base64(writer.data())));
+                              writer.data().size(), EncodeBase64(writer.data())));
   } else {
     data += writer.data();
     if (buffers == 0) {

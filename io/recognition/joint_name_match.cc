@@ -27,17 +27,17 @@ bool SameLimbs(const JointMap& a, const JointMap& b) {
 }
 
 std::vector<Reading> ReadingsOf(const NameIndex& index, const JointProfile& profile) {
-  std::vector<std::string> words = Words(profile.root);
-  for (const std::string& word : Words(profile.head)) words.push_back(word);
-  std::vector<std::string> sides = Words(profile.sides);
-  for (const std::string& pair : Words(kSides)) {
+  std::vector<std::string> words = SplitWords(profile.root);
+  for (const std::string& word : SplitWords(profile.head)) words.push_back(word);
+  std::vector<std::string> sides = SplitWords(profile.sides);
+  for (const std::string& pair : SplitWords(kSides)) {
     if (std::find(sides.begin(), sides.end(), pair) == sides.end()) sides.push_back(pair);
   }
   std::vector<Reading> readings;
-  for (const NameFrame& frame : index.Frames(words, Words(profile.prefixes), kRequired)) {
+  for (const NameFrame& frame : index.Frames(words, SplitWords(profile.prefixes), kRequired)) {
     for (const bool flipped : {false, true}) {
       for (const std::string& pair : sides) {
-        const auto word = Words(pair, '/');
+        const auto word = SplitWords(pair, '/');
         readings.push_back({frame, word[0], word[1], flipped});
       }
     }
@@ -52,7 +52,7 @@ NameMatch MatchProfile(const Rig& rig, const NameIndex& index, const JointProfil
     if (!best || Better(match, *best)) {
       best = std::move(match);
     } else if (match.complete() && match.score == best->score && !SameLimbs(match.map, best->map)) {
-      const std::vector<std::string> preferred = Words(profile.prefixes);
+      const std::vector<std::string> preferred = SplitWords(profile.prefixes);
       const bool ranked =
           std::find(preferred.begin(), preferred.end(), reading.frame.prefix) != preferred.end();
       if (!ranked) ++best->figures;  // another character's names
@@ -63,13 +63,13 @@ NameMatch MatchProfile(const Rig& rig, const NameIndex& index, const JointProfil
 
 // A project's joint name ("left_hip", "head") as the profile writes it, normalised.
 std::string NameInProfile(const std::string& wanted, const JointProfile& profile) {
-  if (wanted == "head") return Words(profile.head)[0];
-  if (wanted == "root") return Words(profile.root)[0];
+  if (wanted == "head") return SplitWords(profile.head)[0];
+  if (wanted == "root") return SplitWords(profile.root)[0];
   const bool left = wanted.starts_with("left_");
   const std::string part = wanted.substr(wanted.find('_') + 1);
-  const auto sides = Words(Words(profile.sides)[0], '/');
+  const auto sides = SplitWords(SplitWords(profile.sides)[0], '/');
   for (const NamedPart& p : kNamedParts) {
-    const auto patterns = Words(profile.*p.names);
+    const auto patterns = SplitWords(profile.*p.names);
     if (part == p.name && !patterns.empty()) {
       return Reading{{}, "", "", false}.Name(patterns[0], sides[left ? 0 : 1]);
     }

@@ -22,7 +22,7 @@ std::string_view WithoutNumber(std::string_view name) {
 
 }  // namespace
 
-std::vector<std::string> Words(std::string_view text, char separator) {
+std::vector<std::string> SplitWords(std::string_view text, char separator) {
   std::vector<std::string> words;
   while (!text.empty()) {
     const size_t end = std::min(text.find(separator), text.size());

@@ -44,6 +44,6 @@ class NameIndex {
 bool NamesAreNumbered(const Rig& rig);
 
 // Text between separators.
-std::vector<std::string> Words(std::string_view text, char separator = ' ');
+std::vector<std::string> SplitWords(std::string_view text, char separator = ' ');
 
 }  // namespace retarget::io

@@ -33,8 +33,8 @@ class NameMatcher {
       match_.map.spine = Chain(profile_.spine);
       match_.map.neck = Chain(profile_.neck);
     }
-    for (const std::string& name : Words(profile_.spine)) CountName(name);
-    for (const std::string& name : Words(profile_.extras)) CountName(name);
+    for (const std::string& name : SplitWords(profile_.spine)) CountName(name);
+    for (const std::string& name : SplitWords(profile_.extras)) CountName(name);
     const JointMap& map = match_.map;
     int found = (map.head >= 0) + DescendsFrom(rig_, map.root, root) + !map.spine.empty() +
                 !map.neck.empty();
@@ -56,7 +56,7 @@ class NameMatcher {
 
   // The first of the alternatives that the rig has, and counts it.
   int Find(std::string_view alternatives, std::string_view side) {
-    for (const std::string& pattern : Words(alternatives)) {
+    for (const std::string& pattern : SplitWords(alternatives)) {
       const int joint = index_.Find(Name(pattern, side));
       if (joint < 0) continue;
       ++match_.score;
@@ -68,7 +68,7 @@ class NameMatcher {
   // The bones of these names as far as they hang from one another.
   std::vector<int> Chain(std::string_view names) const {
     std::vector<int> chain;
-    for (const std::string& name : Words(names)) {
+    for (const std::string& name : SplitWords(names)) {
       const int bone = index_.Find(Name(name, ""));
       if (bone >= 0 && (chain.empty() || DescendsFrom(rig_, bone, chain.back()))) {
         chain.push_back(bone);
@@ -97,7 +97,7 @@ class NameMatcher {
 
   // The first alternative that is not at the wrist itself, as CMU's zero bones are; -1 if none.
   int BestHand(const std::string& word, int wrist) const {
-    for (const std::string& pattern : Words(profile_.hand)) {
+    for (const std::string& pattern : SplitWords(profile_.hand)) {
       const int joint = wrist < 0 ? -1 : index_.FindBelow(Name(pattern, word), wrist);
       double length = 0;
       for (int j = joint; j > wrist; j = rig_.joints[j].parent) {
@@ -163,7 +163,7 @@ class NameMatcher {
     int arms = std::max(fork(map.left), fork(map.right));
     if (map.head < 0) arms = CommonAncestor(rig_, map.left.shoulder, map.right.shoulder);
     std::vector<int> named;
-    for (const std::string& name : Words(profile_.neck)) {
+    for (const std::string& name : SplitWords(profile_.neck)) {
       const int joint = index_.FindBelow(Name(name, ""), map.root);
       if (joint >= 0) named.push_back(joint);
     }
@@ -194,7 +194,7 @@ class NameMatcher {
 
   void FindHeadTop() {
     if (match_.map.head < 0) return;
-    for (const std::string& name : Words(kHeadTops)) {
+    for (const std::string& name : SplitWords(kHeadTops)) {
       const int joint = index_.FindBelow(Name(name, ""), match_.map.head);
       if (joint < 0) continue;
       match_.map.head_top = joint;

@@ -9,7 +9,7 @@
 
 #include "io/recognition/map_joints.h"
 #include "io/recognition/recognise.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 
 namespace retarget::io {
 namespace {

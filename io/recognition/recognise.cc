@@ -17,14 +17,14 @@
 #include "io/recognition/rig_measure.h"
 #include "io/recognition/rig_units.h"
 #include "io/recognition/t_pose.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 
 namespace retarget::io {
 namespace {
 
 // --- Which joint is which ---
 
-std::string Quoted(const std::vector<std::string>& names) {
+std::string QuotedList(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) {
     out += (out.empty() ? "'" : ", '") + Printable(name) + "'";
@@ -57,7 +57,7 @@ std::string MissingJoints(const Rig& rig, const NameMatch& match) {
   }
   return fmt::format("nothing plays {} (nearest convention '{}'); the names nearest to {} are {}",
                      missing, match.map.profile, match.missing.front(),
-                     Quoted(NearestNames(rig, match.missing.front(), match.map.profile)));
+                     QuotedList(NearestNames(rig, match.missing.front(), match.map.profile)));
 }
 
 // The limb that two readings of the names give to different joints.

@@ -3,13 +3,12 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "io/gltf/load.h"
 #include "io/scene/scene_motion.h"
+#include "io/text/read_file.h"
 
 namespace retarget::io {
 
@@ -211,11 +210,7 @@ SceneMotion ParseSceneGlb(const std::string& bytes, const std::string& name) {
 }
 
 SceneMotion ReadSceneGlb(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path + ": cannot be opened");
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  return ParseSceneGlb(std::move(bytes).str(), path);
+  return ParseSceneGlb(ReadFile(path, "a scene (GLB)"), path);
 }
 
 }  // namespace retarget::io

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/text/quoted.h"
 #include "model/geometry/types.h"
 
 namespace retarget::io::bvh {
@@ -25,13 +26,6 @@ std::string_view Trimmed(std::string_view s) {
   while (!s.empty() && IsSpace(s.front())) s.remove_prefix(1);
   while (!s.empty() && IsSpace(s.back())) s.remove_suffix(1);
   return s;
-}
-
-std::string Quoted(std::string_view s) {
-  constexpr size_t kLongest = 40;
-  std::string out = "'";
-  for (char c : s.substr(0, kLongest)) out += (c >= ' ' && c <= '~') ? c : '?';
-  return out + (s.size() > kLongest ? "...'" : "'");
 }
 
 NumberFault ParseNumber(std::string_view token, double* value) {
@@ -57,7 +51,7 @@ void Cursor::Fail(const std::string& found, const std::string& expected) const {
 }
 
 void Cursor::FailAtToken(std::string_view token, const std::string& expected) const {
-  Fail(token.empty() ? "the end of the file" : Quoted(token), expected);
+  Fail(token.empty() ? "the end of the file" : QuotedWord(token), expected);
 }
 
 std::string_view Cursor::Next() {

@@ -19,9 +19,6 @@ bool SameWord(std::string_view a, std::string_view b);
 
 std::string_view Trimmed(std::string_view s);
 
-// A piece of the file for a message: short and printable, so that the message stays one line.
-std::string Quoted(std::string_view s);
-
 enum class NumberFault { kNone, kNotANumber, kNotFinite, kTooLarge };
 NumberFault ParseNumber(std::string_view token, double* value);
 

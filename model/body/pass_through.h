@@ -14,8 +14,18 @@ namespace retarget {
 // Node positions of both figures in one frame (m).
 using NodePositions = std::array<std::vector<Vec3>, 2>;
 
-// Pairs of segments further apart than this cannot meet within one step of the solve (m).
+// A larger change of GLI between two neighbouring instants is a pass-through (turns): it changes by
+// one where a limb goes through a limb, and by far less where limbs move past each other.
+inline constexpr double kPassThroughGli = 0.5;
+
+// How far apart two segments may be and still meet on the way from one posture to the next (m).
+// Within one step of the solve: two nodes that each move by solve.step_limit_m meet from 0.2 m.
 inline constexpr double kGuardReach = 0.25;
+// In the quasi-static start, whose steps are half as long, and whose frames follow each other in
+// steps of that order.
+inline constexpr double kStartGuardReach = 0.2;
+// Between instants of a finished motion, of which nothing bounds the steps.
+inline constexpr double kMotionReach = 0.6;
 
 struct GliJump {
   double size = 0;             // turns

@@ -13,9 +13,7 @@
 namespace retarget::solver {
 namespace {
 
-constexpr int kSubSamples = 4;      // instants per frame interval
-constexpr double kPassJump = 0.5;   // turns
-constexpr double kPassReach = 0.6;  // m; further apart no pair can jump between instants
+constexpr int kSubSamples = 4;  // instants per frame interval (docs/metrics.md)
 
 double DepthOf(const Body& body_1, const std::vector<Vec3>& p, int i, const Body& body_2,
                const std::vector<Vec3>& q, int j) {
@@ -185,8 +183,8 @@ FrameSeries MeasureSeries(const MeasureSubject& subject, const MotionView& motio
       motion.at(t + static_cast<double>(k) / kSubSamples, &other);
       if (k == 1) out.between[t] = meter.Measure(other, false);
       if (k > 1 && k < kSubSamples) KeepWorst(meter.Measure(other, false), &out.between[t]);
-      const GliJump jump = LargestGliJump(subject.body, now.node, other.node, kPassReach);
-      if (jump.size > kPassJump) passes[t].push_back({t, jump.node_a, jump.node_b});
+      const GliJump jump = LargestGliJump(subject.body, now.node, other.node, kMotionReach);
+      if (jump.size > kPassThroughGli) passes[t].push_back({t, jump.node_a, jump.node_b});
       std::swap(now, other);
     }
   });

@@ -14,11 +14,31 @@
 namespace retarget::solver {
 namespace {
 
+// Damping, times diag(J^T J). After a whole step it follows the gain ratio by Nielsen's rule
+// ("Damping parameter in Marquardt's method", 1999), the factor clamped on both sides.
 constexpr double kLeastDamping = 1e-9;
 constexpr double kMostDamping = 1e5;  // only a cliff (a pass-through) lies ahead: no way on
-constexpr int kShortenings = 6;       // trials of one step
-constexpr int kMostRejections = 12;   // in a row
-constexpr double kShareSlope = 0.12;  // change of the share from frame to frame
+constexpr double kEase = 0.2, kStiffen = 2.0;
+constexpr double kStiffenRejected = 5;  // where no share of the step would do
+constexpr int kMostRejections = 12;     // in a row
+// The damping of a frame that was held back falls to this part with every whole step after it.
+constexpr double kForget = 0.25;
+
+// Shares of a step, per frame. What the guard forbids is left with a margin, since the way is
+// curved: a step that is too long is cut to kWithinLimit of the limit. Where in its way a limb went
+// through a limb is not known, and how much of a step that costs more is good is not either: those
+// are cut by a bit more than half, the costly ones further, as their whole frame is at fault.
+constexpr int kShortenings = 6;  // trials of one step
+constexpr double kWithinLimit = 0.9;
+constexpr double kTunnelled = 0.4;
+constexpr double kCostly = 0.3;
+constexpr double kToBlame = 0.1;      // a frame with this part of the worst frame's rise is costly
+constexpr double kShareSlope = 0.12;  // change from frame to frame: held back in about 8 frames
+
+// A step counts as free, and can show convergence, where so much of it was taken on average and the
+// damping does not hold it short either.
+constexpr double kFreeShare = 0.9;
+constexpr double kFreeDamping = 0.1;
 
 class BandedStage {
  public:
@@ -57,7 +77,7 @@ class BandedStage {
       Unknowns next;
       double next_cost = cost;
       if (!SolveLinear(result_->unknowns, damping) || !Shorten(cost, &next, &next_cost)) {
-        damping *= 5;
+        damping *= kStiffenRejected;
         if (++rejected > kMostRejections || damping > kMostDamping) {
           result_->stalled = true;
           return SolveStatus::kConverged;
@@ -71,11 +91,11 @@ class BandedStage {
       const bool whole = share_.minCoeff() == 1;
       if (whole) {
         const double gain = (cost - next_cost) / std::max(PredictedDecrease(damping), 1e-300);
-        damping *= std::clamp(1 - std::pow(2 * gain - 1, 3), 0.2, 2.0);
+        damping *= std::clamp(1 - std::pow(2 * gain - 1, 3), kEase, kStiffen);
         damping = std::max(damping, kLeastDamping);
       }
       // Frames whose step was shortened are damped in the next one, the others less and less.
-      caution_ = (caution_ / 4).cwiseMax(share_.array().pow(-2).matrix());
+      caution_ = (kForget * caution_).cwiseMax(share_.array().pow(-2).matrix());
       Iteration iteration;
       iteration.step_m = *std::max_element(move_.begin(), move_.end());
       result_->unknowns = std::move(next);
@@ -83,7 +103,7 @@ class BandedStage {
       Accept();
       if (!Report(cost, &iteration)) return SolveStatus::kInterrupted;
       // A step that was held short says nothing about convergence.
-      const bool free = share_.mean() > 0.9 && damping < 0.1;
+      const bool free = share_.mean() > kFreeShare && damping < kFreeDamping;
       flat = free && decrease < context_.tolerance ? flat + 1 : 0;
       if (flat >= 2) return SolveStatus::kConverged;
     }
@@ -134,8 +154,8 @@ class BandedStage {
       VecX factor = VecX::Ones(n);
       bool sound = true;
       for (int t = 0; t < n; ++t) {
-        if (move_[t] > limit) factor[t] = 0.9 * limit / move_[t];
-        if (tunnelled_[t]) factor[t] = std::min(factor[t], 0.4);
+        if (move_[t] > limit) factor[t] = kWithinLimit * limit / move_[t];
+        if (tunnelled_[t]) factor[t] = std::min(factor[t], kTunnelled);
         sound = sound && factor[t] == 1;
       }
       if (sound) {
@@ -144,7 +164,7 @@ class BandedStage {
         double worst = 0;
         for (int t = 0; t < n; ++t) worst = std::max(worst, trial_cost_[t] - accepted_cost_[t]);
         for (int t = 0; t < n; ++t) {
-          if (trial_cost_[t] - accepted_cost_[t] > 0.1 * worst) factor[t] = 0.3;
+          if (trial_cost_[t] - accepted_cost_[t] > kToBlame * worst) factor[t] = kCostly;
         }
       }
       share_ = share_.cwiseProduct(factor);

@@ -19,6 +19,7 @@ namespace {
 constexpr int kBlock = 3;  // of a joint's edit
 constexpr int kAnchor = 2;
 constexpr double kFreeRadius = 1e3;  // of the trust region, over diag(J^T J)
+constexpr double kStill = 1e-3;      // m: a frame that moved less cannot have gone through a limb
 
 // All frames, worked out once per evaluation point.
 class FrameCache : public ceres::EvaluationCallback {
@@ -68,8 +69,8 @@ class FrameCache : public ceres::EvaluationCallback {
       const NodePositions now = {frames_[t].posed[0].node, frames_[t].posed[1].node};
       const double moved = LargestDisplacement(accepted_[t], now);
       bad[t] = moved > settings.step_limit_m ||
-               (moved > 1e-3 && LargestGliJump(scene_.body, accepted_[t], now, kGuardReach).size >
-                                    settings.gli_jump);
+               (moved > kStill && LargestGliJump(scene_.body, accepted_[t], now, kGuardReach).size >
+                                      settings.gli_jump);
     });
     return std::count(bad.begin(), bad.end(), 0) == static_cast<long>(bad.size());
   }

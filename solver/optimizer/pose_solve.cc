@@ -13,10 +13,9 @@
 namespace retarget::solver {
 namespace {
 
-constexpr double kPassThrough = 0.5;  // turns of one segment pair (docs/metrics.md)
-constexpr double kLeastGain = 1e-4;   // m of all drags together: less is no progress
-constexpr double kLeastLead = 0.01;   // m
-constexpr double kReached = 0.01;     // m
+constexpr double kLeastGain = 1e-4;  // m of all drags together: less is no progress
+constexpr double kLeastLead = 0.01;  // m
+constexpr double kReached = 0.01;    // m
 // Elbows and knees of captured clips may bend sideways, as nobody knows their rigs' hinges; here
 // the hinges are the body's own.
 constexpr double kHingePlay = 10 * kDegree;
@@ -96,7 +95,7 @@ std::optional<LimbPair> PassedThrough(const PoseTask& task, const Bodies& before
     const GliJump jump =
         LargestGliJump({task.body[f], task.body[g]}, {before[f].node, before[g].node},
                        {after[f].node, after[g].node}, f == g ? kGuardReach : all);
-    if (jump.size > kPassThrough) return LimbPair{{f, g}, {jump.node_a, jump.node_b}};
+    if (jump.size > kPassThroughGli) return LimbPair{{f, g}, {jump.node_a, jump.node_b}};
   }
   return std::nullopt;
 }

@@ -71,7 +71,9 @@ void SolveStages(const Problem& problem, const std::vector<double>& stages, doub
 
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,
                            const Progress& progress) {
-  return SolveSpacetime(problem, start, problem.settings().solve.stages, progress);
+  const std::vector<double>& stages = problem.settings().solve.stages;
+  CheckStages(stages);
+  return SolveSpacetime(problem, start, stages, progress);
 }
 
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,

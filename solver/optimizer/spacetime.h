@@ -42,7 +42,8 @@ struct SolveResult {
 // Called after each iteration; false stops the solve, which then returns the best so far.
 using Progress = std::function<bool(const Iteration&)>;
 
-// Solves from `start` in the stages and with the back end of the problem's settings.
+// Solves from `start` in the stages and with the back end of the problem's settings. Throws
+// InputError where the stages do not end with 1.
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start, const Progress& progress);
 // The same in stages of one's own, which end with 1.
 SolveResult SolveSpacetime(const Problem& problem, const Unknowns& start,

@@ -7,8 +7,12 @@
 namespace retarget::solver {
 namespace {
 
-constexpr double kSlow = 0.5;       // s: half width of the window that tells drift from motion
-constexpr double kPlay = 0.1;       // m: so much the limbs may bear
+// Standard deviation of the window that tells drift from motion (s): a step of a walk takes about
+// as long, so what sways with the steps is motion.
+constexpr double kSlow = 0.5;
+// So much of a drift the limbs can bear, by bending or turning a little further: it is left to
+// them.
+constexpr double kPlay = 0.1;       // m
 constexpr double kPlayTurn = 0.25;  // rad
 
 // How b's root differs from where it belongs beside a's: a turn, and x and z (m).

@@ -3,34 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
-#include "model/body/pass_through.h"
-#include "model/body/path.h"
-#include "model/geometry/polyline.h"
-#include "model/geometry/so3.h"
 #include "solver/problem/clock.h"
-#include "solver/problem/root_drift.h"
-#include "solver/problem/root_targets.h"
+#include "solver/simulation/control.h"
+#include "solver/simulation/judge.h"
 #include "solver/simulation/physics_world.h"
 #include "solver/simulation/tangle_force.h"
 
 namespace retarget::solver {
 namespace {
 
-constexpr double kFallen = 0.35;   // of the stature: the root this far below its target
-constexpr double kStrayed = 0.35;  // of the stature: the root this far off its target in any way
-constexpr double kLostGli = 0.25;  // turns: a tag below this ...
-constexpr double kLostTime = 0.5;  // s: ... from then to the end, for at least this long
-constexpr double kRestTime = 0.1;  // s at rest before the clips begin
-constexpr double kPassThrough = 0.5;
-
-// What the control aims for at one instant.
-struct Target {
-  std::array<Pose, 2> pose;
-  std::array<Vec3, 2> root_velocity = {Vec3::Zero(), Vec3::Zero()};
-  std::array<std::vector<Vec3>, 2> turn_velocity;  // per link, own axes
-};
+// A root this share of the stature below its target: it stands at a little over half of the
+// stature, so the figure sits, kneels or lies.
+constexpr double kFallen = 0.35;
+constexpr double kRestTime = 0.1;  // s at rest before the clips begin: one slow step is none
 
 class Run {
  public:
@@ -39,11 +25,10 @@ class Run {
         settings_(settings),
         frame_time_(1 / scene.fps()),
         steps_per_frame_(static_cast<int>(std::ceil(frame_time_ / settings.time_step - 1e-9))),
-        world_(Figures(), Ties(), Options()),
-        tangle_force_(scene, settings),
-        meeting_(MeetingShifts(scene)) {
+        control_(scene, settings),
+        world_({control_.FigureOf(0), control_.FigureOf(1)}, Ties(), Options()),
+        tangle_force_(scene, settings) {
     for (int f = 0; f < 2; ++f) {
-      relative_[f] = RelativeRootTargets(scene, f);
       result_.motion[f].fps = scene.fps();
       result_.motion[f].frames.assign(static_cast<size_t>(scene.num_frames()),
                                       scene.posture.pose[f]);
@@ -63,27 +48,14 @@ class Run {
         Play(-1);
       }
     }
-    Judge();
+    result_.frames_simulated =
+        static_cast<int>(std::count(simulated_.begin(), simulated_.end(), 1));
+    JudgeSimulation(scene_, stray_, &result_);
     result_.seconds = SecondsNow() - started;
     return std::move(result_);
   }
 
  private:
-  std::vector<PhysicsFigure> Figures() {
-    std::vector<PhysicsFigure> figures;
-    for (int f = 0; f < 2; ++f) {
-      PhysicsFigure figure{scene_.body[f], {}};
-      for (const Link& link : scene_.body[f].links) {
-        stiffness_[f].push_back(settings_.stiffness * JointShare(settings_.gains, link.name));
-        figure.damping.push_back(settings_.damping * stiffness_[f].back());
-      }
-      figure.damping[0] = settings_.root_damping * settings_.root_turn_stiffness;
-      figure.root_damping = settings_.root_damping * settings_.root_stiffness;
-      figures.push_back(figure);
-    }
-    return figures;
-  }
-
   // One for every hold, then one for every node that is planted at some time.
   std::vector<Tie> Ties() {
     std::vector<Tie> ties;
@@ -162,56 +134,15 @@ class Run {
     }
   }
 
-  // The capture at `u` of the way from frame t to frame `next`.
-  Target TargetAt(int t, int next, double u) const {
-    Target target;
-    for (int f = 0; f < 2; ++f) {
-      const Pose from = ShiftedRoot(scene_.source[f].frames[t], meeting_[f][t]);
-      const Pose to = ShiftedRoot(scene_.source[f].frames[next], meeting_[f][next]);
-      target.pose[f] = Interpolate(from, to, u);
-      target.root_velocity[f] = (to.root_position - from.root_position) / frame_time_;
-      for (size_t l = 0; l < from.rotation.size(); ++l) {
-        target.turn_velocity[f].push_back(LogSo3(from.rotation[l].conjugate() * to.rotation[l]) /
-                                          frame_time_);
-      }
-      if (relative_[f].empty()) continue;
-      // A follower goes where it belongs on its partner, as that is now.
-      const Pose partner = world_.PoseOf(1 - f);
-      const RelativeRoot &a = relative_[f][t], &b = relative_[f][next];
-      target.pose[f].rotation[0] = partner.rotation[0] * a.rotation.slerp(u, b.rotation);
-      target.pose[f].root_position =
-          partner.root_position + partner.rotation[0] * ((1 - u) * a.position + u * b.position);
-      target.root_velocity[f] = world_.RootVelocity(1 - f);
-      target.turn_velocity[f][0] = target.pose[f].rotation[0].conjugate() *
-                                   (partner.rotation[0] * world_.JointVelocity(1 - f, 0));
-    }
-    return target;
-  }
-
-  // Springs towards the target, and the target's own speed against the damping, which the engine
-  // takes off implicitly.
-  void Control(const Target& target) {
-    for (int f = 0; f < 2; ++f) {
-      const Pose pose = world_.PoseOf(f);
-      const Pose& aim = target.pose[f];
-      world_.AddForce(
-          f, 0, posed_[f].centre[0],
-          settings_.root_stiffness * (aim.root_position - pose.root_position +
-                                      settings_.root_damping * target.root_velocity[f]));
-      for (int l = 0; l < scene_.body[f].num_links(); ++l) {
-        const Vec3 error = LogSo3(pose.rotation[l].conjugate() * aim.rotation[l]);
-        const double stiffness = l == 0 ? settings_.root_turn_stiffness : stiffness_[f][l];
-        const double damping = l == 0 ? settings_.root_damping : settings_.damping;
-        world_.AddJointTorque(f, l, stiffness * (error + damping * target.turn_velocity[f][l]));
-      }
-    }
+  ControlTarget TargetAt(int t, int next, double u) const {
+    return control_.TargetAt(t, next, u, world_);
   }
 
   // One step of physics. False where the run has come apart.
-  bool Step(const Target& target) {
+  bool Step(const ControlTarget& target) {
     world_.BeginStep();
     Look();
-    Control(target);
+    control_.Apply(target, posed_, &world_);
     tangle_force_.Apply(posed_, &world_);
     world_.EndStep();
     result_.simulated += world_.time_step();
@@ -226,7 +157,6 @@ class Run {
 
   bool Settle() {
     const int t = scene_.template_frame;
-    const Target target = TargetAt(t, t, 0);
     const auto distance = [&](const std::array<PosedBody, 2>& from) {
       double largest = 0;
       for (int f = 0; f < 2; ++f) {
@@ -241,9 +171,7 @@ class Run {
     Look();
     while (result_.settle_s < settings_.settle_max_s && rest < kRestTime) {
       const std::array<PosedBody, 2> before = posed_;
-      if (!Step(relative_[0].empty() && relative_[1].empty() ? target : TargetAt(t, t, 0))) {
-        return false;
-      }
+      if (!Step(TargetAt(t, t, 0))) return false;
       result_.settle_s += world_.time_step();
       // Step looks before it moves: this is the distance covered by the step before.
       const bool slow = distance(before) < settings_.settle_speed * world_.time_step();
@@ -321,86 +249,6 @@ class Run {
     result_.frame = frame;
   }
 
-  // What became of the tags in the frames that were simulated.
-  void Judge() {
-    result_.frames_simulated =
-        static_cast<int>(std::count(simulated_.begin(), simulated_.end(), 1));
-    if (result_.status != SimulationStatus::kCompleted) {
-      result_.message += "; " + std::to_string(result_.frames_simulated) + " of " +
-                         std::to_string(scene_.num_frames()) + " frames were simulated";
-      return;
-    }
-    JudgeTags();
-    if (result_.status == SimulationStatus::kCompleted) JudgePassThroughs();
-    if (result_.status == SimulationStatus::kCompleted) JudgeStray();
-    if (result_.status == SimulationStatus::kCompleted) result_.message = "it ran to the end";
-  }
-
-  std::array<PosedBody, 2> PosedAt(int t) const {
-    return {PoseBody(scene_.body[0], result_.motion[0].frames[t]),
-            PoseBody(scene_.body[1], result_.motion[1].frames[t])};
-  }
-
-  // Lost for good: gone from some frame to either end of the clip.
-  void JudgeTags() {
-    const int least = static_cast<int>(std::ceil(kLostTime * scene_.fps()));
-    for (const HeldTangle& held : scene_.tangles) {
-      const auto lost_at = [&](int t) {
-        const std::array<PosedBody, 2> posed = PosedAt(t);
-        return held.sign *
-                   PolylineGli(
-                       PointsOn(posed[0].node, NodesOn(scene_.body[0], held.tag.tangle.a)),
-                       PointsOn(posed[1].node, NodesOn(scene_.body[1], held.tag.tangle.b))) <
-               kLostGli;
-      };
-      int first = scene_.num_frames(), last = -1;
-      while (first > 0 && lost_at(first - 1)) --first;
-      while (last + 1 < first && lost_at(last + 1)) ++last;
-      const bool at_end = scene_.num_frames() - first >= std::min(least, scene_.num_frames());
-      if (!at_end && last + 1 < least) continue;
-      const auto name = [&](int f, int n) { return scene_.body[f].nodes[n].name; };
-      const Tangle& t = held.tag.tangle;
-      Stop(SimulationStatus::kLostHold,
-           "it lost the tag a (" + name(0, t.a.from) + ", " + name(0, t.a.to) + ") x b (" +
-               name(1, t.b.from) + ", " + name(1, t.b.to) + ") for good " +
-               (at_end ? "at frame " + std::to_string(first)
-                       : "before frame " + std::to_string(last + 1)),
-           at_end ? first : last + 1);
-      return;
-    }
-  }
-
-  void JudgePassThroughs() {
-    std::array<PosedBody, 2> before = PosedAt(0);
-    for (int t = 1; t < scene_.num_frames(); ++t) {
-      const std::array<PosedBody, 2> now = PosedAt(t);
-      const GliJump jump = LargestGliJump(scene_.body, {before[0].node, before[1].node},
-                                          {now[0].node, now[1].node}, kGuardReach);
-      if (jump.size > kPassThrough) {
-        Stop(SimulationStatus::kPassedThrough,
-             scene_.body[0].nodes[jump.node_a].name + " of a went through " +
-                 scene_.body[1].nodes[jump.node_b].name + " of b at frame " + std::to_string(t),
-             t);
-        return;
-      }
-      before = now;
-    }
-  }
-
-  // A figure that stumbled and is dragged along shows nothing of its motion: no start for a solve.
-  void JudgeStray() {
-    if (stray_.share < kStrayed) return;
-    char text[100];
-    std::snprintf(text, sizeof text, "%s strayed %.2f m from its way at frame %d",
-                  stray_.figure == 0 ? "a" : "b", stray_.distance_m, stray_.frame);
-    Stop(SimulationStatus::kStrayed, text, stray_.frame);
-  }
-
-  // Where a root was furthest from where the control wanted it.
-  struct Stray {
-    double share = 0, distance_m = 0;  // share of the stature
-    int figure = 0, frame = 0;
-  };
   struct Foot {
     int figure, node, tie;
     bool planted;
@@ -410,12 +258,10 @@ class Run {
   const SimulationSettings& settings_;
   double frame_time_;
   int steps_per_frame_;
-  std::array<std::vector<double>, 2> stiffness_;  // per link (N m/rad)
   std::vector<Foot> feet_;
+  Control control_;
   PhysicsWorld world_;
   TangleForce tangle_force_;
-  std::array<std::vector<RelativeRoot>, 2> relative_;
-  std::array<std::vector<RootShift>, 2> meeting_;
   std::array<PosedBody, 2> posed_;
   Stray stray_;
   std::vector<char> simulated_;  // per frame

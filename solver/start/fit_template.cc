@@ -11,8 +11,13 @@
 namespace retarget::solver {
 namespace {
 
-constexpr double kLargestChange = 0.02;  // of a segment's length, per step of the fit
-constexpr int kMostSteps = 40;
+// Change of a segment's length per step of the fit, as a share: a few millimetres of a limb, less
+// than its capsule's radius, so that no limb leaps over the one it lies against.
+constexpr double kLargestChange = 0.02;
+constexpr int kMostSteps = 40;  // bodies that differ by more than 80 % take longer steps
+// One frame, from a near start: iterations are cheap, and a rough fit would add up over the steps.
+constexpr int kIterations = 200;
+constexpr double kRelativeDecrease = 1e-5;
 
 double GliOf(const TemplatePosture& posture, const std::array<PosedBody, 2>& posed,
              const Path& path_a, const Path& path_b) {
@@ -92,9 +97,9 @@ std::vector<HeldTangle> HoldTangles(const std::vector<Tag>& tags, const Template
 TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Body, 2>& body,
                             const std::vector<Tag>& tags, const Settings& settings) {
   Settings one_frame = settings;
-  one_frame.solve.max_iterations = 200;
+  one_frame.solve.max_iterations = kIterations;
   one_frame.solve.max_seconds = 0;
-  one_frame.solve.polish_decrease = 1e-5;
+  one_frame.solve.polish_decrease = kRelativeDecrease;
   one_frame.solve.backend = Backend::kBanded;
   one_frame.solve.threads = 1;
   one_frame.solve.stages = {1};

@@ -1,90 +1,72 @@
 #include "solver/start/quasi_static.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 
 #include "model/body/pass_through.h"
-#include "solver/optimizer/kernels.h"
-#include "solver/optimizer/normal_equations.h"
+#include "solver/optimizer/frame_solve.h"
 #include "solver/problem/parallel.h"
 
 namespace retarget::solver {
 namespace {
 
+// Iterations of a frame. Few, as its neighbour is solved already and the spacetime solve follows;
+// the first frame comes from the template posture, with all the way to go.
+constexpr int kIterations = 8;
+constexpr int kIterationsOfFirst = 80;
+// Of solve.step_limit_m: a frame by itself has no neighbours in time that damp its steps.
+constexpr double kStepShare = 0.5;
+// 1/rad, 1/m: the edit stays near that of the frame before, or the pass would not be smooth.
+constexpr double kFollowWeight = 3;
+
+FrameSolveOptions OptionsOf(const SolveSettings& settings) {
+  FrameSolveOptions options;
+  options.max_iterations = kIterations;
+  options.step_limit_m = kStepShare * settings.step_limit_m;
+  options.gli_jump = settings.gli_jump;
+  options.guard_reach = kStartGuardReach;
+  return options;
+}
+
 // One direction of the pass, from the template's frame outwards.
 class Pass {
  public:
-  Pass(const Problem& problem, const Unknowns& start, const QuasiStaticOptions& options)
-      : problem_(problem), scene_(problem.scene()), options_(options), x_(start) {}
+  Pass(const Problem& problem, const Unknowns& start)
+      : problem_(problem),
+        scene_(problem.scene()),
+        options_(OptionsOf(problem.settings().solve)),
+        x_(start) {}
 
-  // Solves `frame` from the edit it has; `previous` (if there is one) is the frame it follows.
-  void SolveFrame(int t, int previous) {
-    const int n = scene_.num_coordinates();
-    VecX follow = VecX::Zero(n);
-    if (previous >= 0) {
-      x_.edit.col(t) = x_.edit.col(previous);
-      // Where the capture itself goes through a limb, start from the pose of the frame before.
-      if (LargestGliJump(scene_.body, last_, NodesAt(t), options_.guard_reach).size >
-          options_.gli_jump) {
-        KeepPose(previous, t);
-      }
-      follow = x_.edit.col(t);
+  // Solves the template's frame from the edit it has.
+  void SolveFirst(int t) {
+    FrameSolveOptions options = options_;
+    options.max_iterations = kIterationsOfFirst;
+    last_ =
+        SolveFrame(problem_, {.t = t, .free_anchors = StartedAnchors(t, -1)}, options, &x_).node;
+  }
+
+  // Solves frame t from the edit of `previous`, the frame it follows.
+  void SolveNext(int t, int previous) {
+    x_.edit.col(t) = x_.edit.col(previous);
+    // Where the capture itself goes through a limb, start from the pose of the frame before.
+    if (LargestGliJump(scene_.body, last_, NodesAt(t), options_.guard_reach).size >
+        options_.gli_jump) {
+      KeepPose(previous, t);
     }
-    StartAnchors(t, previous);
-    NodePositions accepted = NodesAt(t);
-    double cost = Cost(t, follow, previous >= 0);
-    double damping = 1e-3;
-    const int most = previous < 0 ? 10 * options_.most_iterations : options_.most_iterations;
-    for (int iteration = 0; iteration < most; ++iteration) {
-      Linearise(t, follow, previous >= 0);
-      bool moved = false;
-      double decrease = 0;
-      for (int attempt = 0; attempt < 9 && !moved; ++attempt) {
-        const VecX step = Step(damping);
-        const VecX before = x_.edit.col(t);
-        double share = 1;
-        for (int shortening = 0; shortening < 3 && !moved; ++shortening) {
-          x_.edit.col(t) = before + share * step;
-          const NodePositions now = NodesAt(t);
-          const double length = LargestDisplacement(accepted, now);
-          if (length > options_.step_limit_m) {
-            share *= 0.95 * options_.step_limit_m / length;
-            continue;
-          }
-          const bool sound = Sound(accepted, now, previous);
-          const double next = sound ? Cost(t, follow, previous >= 0) : 0;
-          if (sound && next < cost) {
-            moved = true;
-            decrease = (cost - next) / cost;
-            cost = next;
-            accepted = now;
-          } else {
-            share *= 0.3;
-          }
-        }
-        if (!moved) x_.edit.col(t) = before;
-        damping = moved ? std::max(damping * 0.2, 1e-4) : damping * 10;
-      }
-      if (!moved || decrease < 1e-3) break;
-    }
-    SetFrame(t, false);  // free anchors stay where the frame ended
-    last_ = accepted;
+    const FrameTask task = {.t = t,
+                            .follow_weight = kFollowWeight,
+                            .follow = x_.edit.col(t),
+                            .also_from = &last_,
+                            .free_anchors = StartedAnchors(t, previous)};
+    last_ = SolveFrame(problem_, task, options_, &x_).node;
   }
 
   const Unknowns& unknowns() const { return x_; }
 
  private:
-  NodePositions NodesAt(int t) {
-    frame_.Set(scene_, x_, t, false);
-    return {frame_.posed[0].node, frame_.posed[1].node};
-  }
-
-  bool Sound(const NodePositions& accepted, const NodePositions& now, int previous) const {
-    if (LargestGliJump(scene_.body, accepted, now, options_.guard_reach).size > options_.gli_jump)
-      return false;
-    return previous < 0 ||
-           LargestGliJump(scene_.body, last_, now, options_.guard_reach).size <= options_.gli_jump;
+  NodePositions NodesAt(int t) const {
+    Frame frame;
+    frame.Set(scene_, x_, t, false);
+    return {frame.posed[0].node, frame.posed[1].node};
   }
 
   // Gives frame t the edit that keeps the pose of `previous`.
@@ -98,75 +80,26 @@ class Pass {
     }
   }
 
-  // Contacts that begin with this frame, in the pass's direction: their anchors are still free.
-  void StartAnchors(int t, int previous) {
-    free_anchors_.clear();
+  // Contacts that begin with frame t, in the pass's direction: their anchors are still free.
+  std::vector<FreeAnchor> StartedAnchors(int t, int previous) const {
+    std::vector<FreeAnchor> started;
     int anchor = 0;
     for (int f = 0; f < 2; ++f) {
       for (const Contact& c : scene_.contacts[f]) {
         const bool here = c.first <= t && t <= c.last;
         const bool before = previous >= c.first && previous <= c.last;
-        if (here && !before) free_anchors_.push_back({anchor, f, c.node});
+        if (here && !before) started.push_back({anchor, f, c.node});
         ++anchor;
       }
     }
-  }
-
-  // Works out frame t; free anchors go where their feet are.
-  void SetFrame(int t, bool derivatives) {
-    frame_.Set(scene_, x_, t, derivatives);
-    for (const FreeAnchor& free : free_anchors_) {
-      const Vec3& foot = frame_.posed[free.figure].node[free.node];
-      x_.anchor.col(free.anchor) << foot.x(), foot.z();
-    }
-  }
-
-  double Cost(int t, const VecX& follow, bool follows) {
-    SetFrame(t, false);
-    problem_.EvaluateFrame(frame_, 1, false, &rows_);
-    double cost = rows_.HalfSquares();
-    if (follows) {
-      cost += 0.5 * options_.follow_weight * options_.follow_weight *
-              (x_.edit.col(t) - follow).squaredNorm();
-    }
-    return cost;
-  }
-
-  void Linearise(int t, const VecX& follow, bool follows) {
-    SetFrame(t, true);
-    problem_.EvaluateFrame(frame_, 1, true, &rows_);
-    NormalEquations(rows_, &hessian_, &gradient_);
-    if (!follows) return;
-    const double w2 = options_.follow_weight * options_.follow_weight;
-    hessian_.diagonal().array() += w2;
-    gradient_ += w2 * (x_.edit.col(t) - follow);
-  }
-
-  VecX Step(double damping) {
-    const int n = static_cast<int>(gradient_.size());
-    factor_ = hessian_;
-    factor_.diagonal() += damping * hessian_.diagonal();
-    factor_.diagonal().array() += 1e-12;
-    VecX step = -gradient_;
-    PartialCholesky(factor_.data(), n, n, n, 0, step.data());
-    factor_.triangularView<Eigen::Lower>().transpose().solveInPlace(step);
-    return step;
+    return started;
   }
 
   const Problem& problem_;
   const Scene& scene_;
-  QuasiStaticOptions options_;
+  FrameSolveOptions options_;
   Unknowns x_;
-  struct FreeAnchor {
-    int anchor, figure, node;
-  };
-
   NodePositions last_;  // of the frame before
-  std::vector<FreeAnchor> free_anchors_;
-  Frame frame_;
-  Rows rows_;
-  MatX hessian_, factor_;
-  VecX gradient_;
 };
 
 // Anchors go where their feet stand on average.
@@ -176,18 +109,17 @@ void CentreAnchors(const Scene& scene, Unknowns* x) {
 
 }  // namespace
 
-Unknowns QuasiStaticPass(const Problem& problem, const Unknowns& start,
-                         const QuasiStaticOptions& options) {
+Unknowns QuasiStaticPass(const Problem& problem, const Unknowns& start) {
   const Scene& scene = problem.scene();
   const int middle = scene.template_frame;
-  Pass forward(problem, start, options);
-  forward.SolveFrame(middle, -1);
+  Pass forward(problem, start);
+  forward.SolveFirst(middle);
   Pass backward = forward;
   Pass* passes[2] = {&forward, &backward};
   ParallelFor(2, 2, [&](int k, int) {
     const int direction = k == 0 ? 1 : -1;
     for (int t = middle + direction; t >= 0 && t < scene.num_frames(); t += direction) {
-      passes[k]->SolveFrame(t, t - direction);
+      passes[k]->SolveNext(t, t - direction);
     }
   });
   Unknowns out = forward.unknowns();

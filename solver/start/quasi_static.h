@@ -9,17 +9,10 @@
 
 namespace retarget::solver {
 
-struct QuasiStaticOptions {
-  int most_iterations = 8;     // per frame; ten times as many in the first
-  double step_limit_m = 0.05;  // per iteration
-  double gli_jump = 0.4;       // turns, between iterates and between frames
-  double guard_reach = 0.2;    // m; pairs further apart cannot meet within a step
-  double follow_weight = 3;    // 1/rad, 1/m: the edit stays near that of the frame before
-};
-
 // `start` holds the edit of the template's frame (scene.template_frame); the other frames are
-// overwritten outwards from it. Planted feet are locked where their contact began in the pass.
-Unknowns QuasiStaticPass(const Problem& problem, const Unknowns& start,
-                         const QuasiStaticOptions& options = {});
+// overwritten outwards from it. Planted feet are locked where their contact began in the pass. No
+// node moves further than half of solve.step_limit_m in an iteration, and solve.gli_jump bounds the
+// jump of a segment pair from iteration to iteration and from frame to frame.
+Unknowns QuasiStaticPass(const Problem& problem, const Unknowns& start);
 
 }  // namespace retarget::solver

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "io/template_file.h"
-#include "io/text/message.h"
+#include "io/text/base64.h"
+#include "io/text/json.h"
 #include "tools/posing/edit.h"
 #include "tools/posing/json.h"
-#include "tools/studio/image.h"
 
 namespace retarget {
 namespace {
@@ -38,12 +38,12 @@ bool NeedsSolver(const posing::Operation& operation) {
 
 // The state after a message's operations; throws InputError.
 posing::PoseState Done(const std::string& text, posing::PoseState state) {
-  const io::Message message = io::ParseMessage(text);
-  const io::Fields fields(message, "");
-  fields.Only({"session", "ops", "live", "thumbnail"});
-  fields.Bool("live", false);
-  if (fields.Has("thumbnail")) studio::FromBase64(fields.Text("thumbnail", 1000));
-  for (const io::Fields& op : fields.ObjectList("ops", 64)) {
+  const io::Document message = io::ParseJson(text);
+  const io::Value fields = message.root();
+  fields.CheckKeys({"session", "ops", "live", "thumbnail"});
+  fields.Flag("live");
+  if (fields.Has("thumbnail")) io::DecodeBase64(fields.Require("thumbnail").Text(1000));
+  for (const io::Value& op : fields.Require("ops").List(64)) {
     const posing::PoseStep step = posing::ParsePoseJson(op, state.posture);
     const posing::Operation* operation = std::get_if<posing::Operation>(&step);
     if (operation && !NeedsSolver(*operation)) state = posing::Edited(state, *operation);

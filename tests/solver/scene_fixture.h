@@ -66,6 +66,14 @@ inline Clip Fidget(const Body& body, const Pose& pose, int frames, double fps, u
   return clip;
 }
 
+// A matrix of numbers evenly distributed over [-1, 1].
+inline MatX RandomMatrix(long rows, long columns, std::mt19937* random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  MatX out(rows, columns);
+  for (long i = 0; i < out.size(); ++i) out(i) = uniform(*random);
+  return out;
+}
+
 // A scene of `frames` frames. Some feet are planted for parts of it, one figure may follow.
 inline Scene SmallScene(int frames, double size_rad, bool follow = false) {
   Scene scene;

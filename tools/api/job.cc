@@ -9,6 +9,7 @@
 #include "io/scene/character_scene.h"
 #include "io/scene/scene_glb.h"
 #include "io/template_file.h"
+#include "io/text/read_file.h"
 #include "tools/api/version.h"
 #include "tools/report/report.h"
 

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include "io/files.h"
+#include "io/text/read_file.h"
 #include "solver/optimizer/kernels.h"
 #include "solver/problem/parallel.h"
 #include "tools/api/version.h"

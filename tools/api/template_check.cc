@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "solver/start/weak_tags.h"
+
 namespace retarget::api {
 
 report::Json TangleJson(const Body& a, const Body& b, const Tangle& t) {
@@ -21,13 +23,13 @@ std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::
   std::vector<std::string> warnings;
   for (const Tag& tag : tags) {
     const std::string line = TangleLine(posture.body[0], posture.body[1], tag.tangle);
-    if (std::abs(tag.tangle.gli) < kWeakGli) {
-      warnings.push_back(
-          fmt::format("{} is weak: |GLI| {:.2f} is under 0.6", line, std::abs(tag.tangle.gli)));
+    if (solver::IsWeak(tag)) {
+      warnings.push_back(fmt::format("{} is weak: |GLI| {:.2f} is under {}", line,
+                                     std::abs(tag.tangle.gli), solver::kWeakGli));
     }
-    if (tag.rho < kEasilyLost) {
-      warnings.push_back(
-          fmt::format("{} is easily lost: robustness radius {:.2f} is under 0.1", line, tag.rho));
+    if (solver::IsEasilyLost(tag)) {
+      warnings.push_back(fmt::format("{} is easily lost: robustness radius {:.2f} is under {}",
+                                     line, tag.rho, solver::kEasilyLostRho));
     }
   }
   if (tags.empty()) {

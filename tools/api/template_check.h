@@ -18,8 +18,6 @@ struct TemplateCheck {
   std::vector<std::string> warnings;  // weak tags and the like
   bool met() const { return solver::AllMet(checks); }
 };
-inline constexpr double kWeakGli = 0.6;     // turns: a tag under it is weak
-inline constexpr double kEasilyLost = 0.1;  // robustness radius of a tag (rad, m)
 // With the tags and against the requirements of these settings.
 TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& settings = {});
 // What is to be said of weak tags.

@@ -16,6 +16,7 @@
 #include <optional>
 #include <thread>
 
+#include "tools/studio/paths.h"
 #include "tools/studio/server.h"
 
 namespace retarget {

@@ -6,6 +6,7 @@
 
 #include "io/files.h"
 #include "io/template_file.h"
+#include "io/text/read_file.h"
 #include "tools/cli/commands.h"
 #include "tools/report/contact_sheet.h"
 #include "tools/report/gallery_page.h"
@@ -113,8 +114,8 @@ int RunGallery(const GalleryOptions& options) {
         hold.run.out, {{0.02, 35}, {0.5, 35}, {0.5, 215}, {0.98, 35}}, true, 300, 340);
     io::WriteFile(hold.run.out + "/strip.png", io::EncodePng(strip), true);
     if (entries.size() % kOverviewColumns == 0) overview.emplace_back();
-    overview.back().push_back(report::SolvedPicture(hold.run.out, {0.5, 35},
-                                                    report::Words(hold.name), kPicture, kPicture));
+    overview.back().push_back(report::SolvedPicture(
+        hold.run.out, {0.5, 35}, report::Humanize(hold.name), kPicture, kPicture));
     fmt::print("{}\n", report::GalleryLine(entry.report));
     entries.push_back(std::move(entry));
   }

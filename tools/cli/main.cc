@@ -11,8 +11,8 @@
 #include "tools/api/version.h"
 #include "tools/cli/command_spec.h"
 #include "tools/cli/commands.h"
-#include "tools/posing/words.h"
-#include "tools/studio/library.h"
+#include "tools/posing/command_line.h"
+#include "tools/studio/paths.h"
 
 namespace retarget::cli {
 
@@ -283,8 +283,8 @@ struct CommandLine {
     AddClipOptions(posing, &from_clips.clip[0], "a", false);
     AddClipOptions(posing, &from_clips.clip[1], "b", false);
     for (const posing::PoseWord& word : posing::PoseWords()) {
-      const std::string name = std::string("--") + word.name;
-      CLI::Option* option = *word.value
+      const std::string name = "--" + word.name + (word.alias.empty() ? "" : ",--" + word.alias);
+      CLI::Option* option = !word.value.empty()
                                 ? posing->add_option(name)->type_name(word.value)->type_size(1)
                                 : posing->add_flag(name);
       option->description(word.help)->group("Operations");

@@ -3,9 +3,9 @@
 
 #include "io/template_file.h"
 #include "tools/cli/commands.h"
+#include "tools/posing/command_line.h"
 #include "tools/posing/queries.h"
 #include "tools/posing/session.h"
-#include "tools/posing/words.h"
 
 namespace retarget::cli {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "io/files.h"
 #include "io/template_file.h"
+#include "io/text/read_file.h"
 #include "tools/cli/commands.h"
 #include "tools/report/embedded_page.h"
 #include "tools/studio/child_process.h"

@@ -7,6 +7,7 @@
 #include "io/files.h"
 #include "io/settings_file.h"
 #include "io/template_file.h"
+#include "io/text/read_file.h"
 #include "model/body/path.h"
 #include "solver/metrics/metrics.h"
 #include "solver/start/fit_template.h"

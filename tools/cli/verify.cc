@@ -8,6 +8,7 @@
 #include "io/clip_file.h"
 #include "io/files.h"
 #include "io/settings_file.h"
+#include "io/text/read_file.h"
 #include "tools/cli/commands.h"
 #include "tools/report/measured_scene.h"
 #include "tools/report/metrics_table.h"

@@ -7,8 +7,8 @@
 
 #include "model/body/shape.h"
 #include "model/geometry/so3.h"
+#include "tools/posing/content.h"
 #include "tools/posing/mirror.h"
-#include "tools/posing/say.h"
 
 namespace retarget::posing {
 
@@ -75,12 +75,7 @@ class Edit {
                                    posture_.body[op.figure].nodes[op.node].name));
     }
   }
-  void operator()(const SetOption& op) {
-    PoseOptions& o = out_.options;
-    bool* const options[] = {&o.holds,   &o.limits, &o.penetration, &o.floor,
-                             &o.tangles, &o.feet,   &o.root};
-    *options[static_cast<int>(op.option)] = op.on;
-  }
+  void operator()(const SetOption& op) { out_.options.*op.option = op.on; }
 
   void operator()(const MoveFigure& op) {
     CheckFigure(op.figure);
@@ -175,9 +170,9 @@ class Edit {
     out_.document = op.document;
   }
 
-  template <typename Said>
-  void operator()(const Said& op) {
-    Say(op, &posture_);
+  template <typename Op>
+  void operator()(const Op& op) {
+    Apply(op, &posture_);
   }
 
  private:

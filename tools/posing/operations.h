@@ -2,11 +2,13 @@
 // Figures are 0 (a) and 1 (b); nodes, links and holds are indices.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "io/template_parts.h"
 #include "model/body/template_posture.h"
 
 namespace retarget::posing {
@@ -41,9 +43,27 @@ struct Pin {
 struct Unpin {
   int figure = 0, node = 0;
 };
-enum class SolveOption { kHolds, kLimits, kPenetration, kFloor, kTangles, kFeet, kRoot };
+// Terms of the solve that are on.
+struct PoseOptions {
+  bool holds = true, limits = true, penetration = true, floor = true;
+  bool tangles = false, feet = true, root = true;
+};
+struct SolveOption {
+  const char* name;
+  bool PoseOptions::*on;
+};
+// feet: standing supports stay where they are; root: the roots may move.
+inline constexpr std::array<SolveOption, 7> kSolveOptions = {
+    {{"holds", &PoseOptions::holds},
+     {"limits", &PoseOptions::limits},
+     {"penetration", &PoseOptions::penetration},
+     {"floor", &PoseOptions::floor},
+     {"tangles", &PoseOptions::tangles},
+     {"feet", &PoseOptions::feet},
+     {"root", &PoseOptions::root}}};
+static_assert(sizeof(PoseOptions) == kSolveOptions.size() * sizeof(bool), "each option has a name");
 struct SetOption {
-  SolveOption option = SolveOption::kHolds;
+  bool PoseOptions::*option = &PoseOptions::holds;
   bool on = true;
 };
 
@@ -98,13 +118,7 @@ struct ResetFigure {  // T-pose, upright on the floor
 
 // -- What the posture says -----------------------------------------------------------------------
 
-// `to` without an offset (or a place in the world) is where `from` is.
-struct HoldRequest {
-  HoldPoint from;
-  int to_figure = 1, to_node = 0;
-  std::optional<Vec3> to_offset = {};
-  bool rotation = false;
-};
+using io::HoldRequest;
 struct AddHold {
   HoldRequest hold;
 };

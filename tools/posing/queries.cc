@@ -10,6 +10,7 @@
 #include "model/geometry/capsule.h"
 #include "model/geometry/polyline.h"
 #include "solver/problem/terms/joint_limit.h"
+#include "solver/start/weak_tags.h"
 #include "tools/api/template_check.h"
 #include "tools/posing/state.h"
 #include "tools/report/requirement_json.h"
@@ -81,8 +82,8 @@ report::Json TagsJson(const TemplatePosture& posture, const std::vector<Tag>& ta
     entry["rho"] = tag.rho;
     entry["group_size"] = tag.group_size;
     entry["requested"] = IsRequested(posture, tag);
-    entry["weak"] = std::abs(tag.tangle.gli) < api::kWeakGli;
-    entry["can_slip"] = tag.rho < api::kEasilyLost;
+    entry["weak"] = solver::IsWeak(tag);
+    entry["can_slip"] = solver::IsEasilyLost(tag);
     out.push_back(entry);
   }
   return out;

@@ -8,7 +8,7 @@
 #include "model/geometry/so3.h"
 #include "solver/start/fit_template.h"
 #include "tools/posing/edit.h"
-#include "tools/posing/named.h"
+#include "tools/posing/label.h"
 
 namespace retarget::posing {
 namespace {
@@ -119,7 +119,7 @@ void PoseSession::Remember(const std::string& what) {
 
 std::optional<solver::PoseResult> PoseSession::Apply(const Operation& operation,
                                                      int most_iterations, double most_seconds) {
-  const std::string what = Named(operation, posture());
+  const std::string what = LabelOf(operation, posture());
   if (const Drag* drag = std::get_if<Drag>(&operation)) {
     CheckNode(posture(), drag->figure, drag->node);
     CheckPlace(drag->target, "target");

@@ -15,13 +15,6 @@ struct PinnedNode {
   std::optional<PinRay> ray;     // or the line that it stays on
 };
 
-// Terms of the solve that are on. `feet`: standing supports stay where they are; `root`: the roots
-// may move.
-struct PoseOptions {
-  bool holds = true, limits = true, penetration = true, floor = true;
-  bool tangles = false, feet = true, root = true;
-};
-
 struct PoseState {
   TemplatePosture posture;
   std::vector<PinnedNode> pins;

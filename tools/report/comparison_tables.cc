@@ -148,7 +148,7 @@ std::string TagsTableHtml(const Json& report) {
     const auto path = [&](const char* figure) {
       const std::string at = std::string("/") + figure;
       return Cell{
-          EscapeHtml(Words(TextAt(tags[k], at + "/0") + " … " + TextAt(tags[k], at + "/1")))};
+          EscapeHtml(Humanize(TextAt(tags[k], at + "/0") + " … " + TextAt(tags[k], at + "/1")))};
     };
     std::vector<Cell> cells = {{std::to_string(k + 1)},
                                path("a"),
@@ -185,7 +185,7 @@ std::string HoldsTableHtml(const Json& report) {
   const double limit = Limit(report, Kind::kHold);
   const auto point = [](const Json& p) {
     const std::string figure = TextAt(p, "/figure");
-    return figure == "world" ? "the world" : figure + " " + Words(TextAt(p, "/node"));
+    return figure == "world" ? "the world" : figure + " " + Humanize(TextAt(p, "/node"));
   };
   for (size_t k = 0; k < holds.size(); ++k) {
     std::vector<Cell> cells = {

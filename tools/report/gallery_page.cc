@@ -64,7 +64,7 @@ std::string SummaryHtml(const std::vector<GalleryEntry>& entries) {
       std::vector<Cell> cells;
       if (result) {
         cells.push_back({fmt::format("<a href=\"#{0}\">{1}</a>", EscapeHtml(entry.name),
-                                     EscapeHtml(Words(entry.name)))});
+                                     EscapeHtml(Humanize(entry.name)))});
         cells.push_back({Met(entry.report) ? "result: every requirement met"
                                            : "result: a requirement is missed ✕",
                          Met(entry.report) ? "" : "bad"});
@@ -107,7 +107,7 @@ std::string EntryHtml(const GalleryEntry& entry) {
       "and solved; columns are the start, the middle from two sides, and the end\">\n"
       "<details><summary>All metrics</summary><div class=\"scroll\">{3}{4}{5}</div></details>\n"
       "</section>\n",
-      name, EscapeHtml(title.empty() ? Words(entry.name) : title), Paragraphs(entry.text),
+      name, EscapeHtml(title.empty() ? Humanize(entry.name) : title), Paragraphs(entry.text),
       MetricsTableHtml(entry.report), TagsTableHtml(entry.report), HoldsTableHtml(entry.report));
 }
 

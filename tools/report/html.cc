@@ -34,7 +34,7 @@ std::string EscapeHtml(const std::string& text) {
   return out;
 }
 
-std::string Words(std::string name) {
+std::string Humanize(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }

@@ -10,7 +10,7 @@ namespace retarget::report {
 std::string EscapeHtml(const std::string& text);
 
 // left_hand -> left hand.
-std::string Words(std::string name);
+std::string Humanize(std::string name);
 
 // Escaped; of a frame that the text names ("frame 12"), the words become a span with
 // data-frame="12", which the page turns into a jump. -1: none.

@@ -1,5 +1,6 @@
 #include "tools/report/page.h"
 
+#include "io/text/base64.h"
 #include "tools/report/embedded_page.h"
 #include "tools/report/tables.h"
 #include "tools/report/verdict.h"
@@ -17,23 +18,6 @@ std::string ScriptJson(const Json& json) {
       out += "\\u003c";
     } else {
       out += c;
-    }
-  }
-  return out;
-}
-
-std::string Base64(const std::string& bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t k = 0; k < bytes.size(); k += 3) {
-    unsigned group = 0;
-    for (size_t i = k; i < k + 3; ++i) {
-      group = group << 8 | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u);
-    }
-    for (size_t i = 0; i < 4; ++i) {
-      out += k + i > bytes.size() ? '=' : kDigits[group >> (18 - 6 * i) & 63];
     }
   }
   return out;
@@ -58,11 +42,11 @@ std::string FormatReportPage(const ReportPageData& data) {
   if (EmbeddedReportPage().empty()) return FormatPlainPage(report, data.series);
   std::string elements = Element("application/json", "report", ScriptJson(report)) +
                          Element("application/json", "series", ScriptJson(data.series)) +
-                         Element("text/plain", "source-glb", Base64(data.source_glb));
+                         Element("text/plain", "source-glb", io::EncodeBase64(data.source_glb));
   if (!data.baseline_glb.empty()) {
-    elements += Element("text/plain", "baseline-glb", Base64(data.baseline_glb));
+    elements += Element("text/plain", "baseline-glb", io::EncodeBase64(data.baseline_glb));
   }
-  elements += Element("text/plain", "result-glb", Base64(data.result_glb));
+  elements += Element("text/plain", "result-glb", io::EncodeBase64(data.result_glb));
   std::string page(EmbeddedReportPage());
   // The data last: nothing in it is searched for markers.
   Fill(&page, "verdict", VerdictHtml(report));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/files.h"
+#include "io/text/read_file.h"
 #include "tools/report/diagnosis_text.h"
 #include "tools/report/requirement_json.h"
 #include "tools/report/requirement_text.h"

@@ -31,7 +31,7 @@ std::string RequirementsHtml(const Json& report) {
                r.met ? Cell{"✓ met", "good"} : Cell{"✕ missed", "bad"},
                {Decimal(scale * r.value, digits) + shown, "number"},
                {Decimal(scale * r.limit, digits) + shown, "number unit"},
-               {WithFrame(Words(r.where), r.frame)}},
+               {WithFrame(Humanize(r.where), r.frame)}},
               r.met ? "" : "class=\"missed\"");
   }
   return table.empty() ? "" : table.Html();
@@ -62,7 +62,7 @@ std::string TermsHtml(const Json& report) {
     const auto precise = [](double v) {
       return std::isnan(v) ? std::string("–") : fmt::format("{:.3g}", v);
     };
-    table.Row({{EscapeHtml(Words(name))},
+    table.Row({{EscapeHtml(Humanize(name))},
                {precise(cost), "number"},
                {sum > 0 ? Decimal(100 * cost / sum, 1) + " %" : "–", "number"},
                {precise(natural), "number"},
@@ -125,7 +125,7 @@ std::string StartHtml(const Json& report) {
     return std::isnan(value) ? "" : Decimal(value, digits) + unit;
   };
   const std::string simulation =
-      PairsHtml({{"simulation", Words(TextAt(report, "/simulation/status"))},
+      PairsHtml({{"simulation", Humanize(TextAt(report, "/simulation/status"))},
                  {"", TextAt(report, "/simulation/message")},
                  {"settled for", number("/simulation/settle_s", 2, " s")},
                  {"left to settle", number("/simulation/settle_distance_m", 3, " m")},
@@ -157,7 +157,7 @@ std::string SolveHtml(const Json& report) {
     if (key == "frames_per_s") {
       add("speed of the solve", "/timings/" + key, 0, " frames/s");
     } else {
-      add("time, " + Words(seconds ? key.substr(0, key.size() - 2) : key), "/timings/" + key, 2,
+      add("time, " + Humanize(seconds ? key.substr(0, key.size() - 2) : key), "/timings/" + key, 2,
           " s");
     }
   }

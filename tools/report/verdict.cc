@@ -34,7 +34,7 @@ std::string HoldName(const Json& report) {
   if (!name.empty()) return name;
   const fs::path path = TextAt(report, "/inputs/template/file");
   const bool plain = path.stem() == "template" && path.has_parent_path();
-  return Words(plain ? path.parent_path().filename().string() : path.stem().string());
+  return Humanize(plain ? path.parent_path().filename().string() : path.stem().string());
 }
 
 std::vector<Sentence> Asked(const Json& report) {
@@ -53,7 +53,7 @@ std::vector<Sentence> Asked(const Json& report) {
        -1}};
   for (size_t k = 0; k < tangles; ++k) {
     const auto node = [&](const char* figure, int end) {
-      return Words(TextAt(report, fmt::format("/tangles/{}/{}/{}", k, figure, end)));
+      return Humanize(TextAt(report, fmt::format("/tangles/{}/{}/{}", k, figure, end)));
     };
     asked.push_back({fmt::format("Tag {}: a from {} to {}, tangled with b from {} to {}.", k + 1,
                                  node("a", 0), node("a", 1), node("b", 0), node("b", 1))});
@@ -124,7 +124,7 @@ std::string MissedBy(const ReadRequirement& r) {
 
 // One line for a requirement that is missed.
 Sentence Missed(const ReadRequirement& r) {
-  std::string where = Words(r.where);
+  std::string where = Humanize(r.where);
   if (r.Is(solver::RequirementKind::kTangle) && r.frame >= 0) {
     where = fmt::format("frame {}", r.frame);  // the tag is named
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 #include "tools/studio/error.h"
 
 namespace retarget::studio {

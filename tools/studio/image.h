@@ -15,7 +15,4 @@ struct ImageKind {
 // By content; nothing where it is neither PNG, JPEG nor WebP.
 std::optional<ImageKind> ImageKindOf(std::string_view bytes);
 
-// Bytes of a base64 text (RFC 4648, padded). Throws InputError.
-std::string FromBase64(std::string_view text);
-
 }  // namespace retarget::studio

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "io/files.h"
+#include "io/text/read_file.h"
 #include "tools/report/verdict.h"
 #include "tools/studio/error.h"
 #include "tools/studio/guard.h"

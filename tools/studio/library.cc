@@ -4,73 +4,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "io/files.h"
 #include "io/template_file.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
+#include "io/text/read_file.h"
 #include "tools/studio/error.h"
 #include "tools/studio/image.h"
+#include "tools/studio/paths.h"
 
 namespace retarget::studio {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kLongestId = 120;            // bytes
 constexpr uintmax_t kMostText = 1 << 20;      // bytes of a template
 constexpr uintmax_t kMostPicture = 16 << 20;  // of a photo or thumbnail
 constexpr const char* kTemplate = "template.yaml";
-
-fs::path UserFolder() {
-  const char* data = std::getenv("XDG_DATA_HOME");
-  const char* home = std::getenv("HOME");
-  const fs::path base =
-      data && *data == '/' ? fs::path(data) : fs::path(home ? home : "/") / ".local" / "share";
-  return base / "retarget" / "templates";
-}
-
-// Whether a path leads, links followed, to something in a folder.
-bool IsWithin(const fs::path& path, const fs::path& folder) {
-  std::error_code error;
-  const fs::path real = fs::weakly_canonical(path, error);
-  if (error) return false;
-  const fs::path root = fs::weakly_canonical(folder, error);
-  if (error) return false;
-  return std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
-}
-
-bool IsFileWithin(const fs::path& path, const fs::path& folder) {
-  std::error_code error;
-  return fs::is_regular_file(path, error) && IsWithin(path, folder);
-}
-
-std::string ReadUpTo(const fs::path& path, uintmax_t most) {
-  std::error_code error;
-  const uintmax_t size = fs::file_size(path, error);
-  if (!error && size > most) {
-    throw InputError(
-        fmt::format("{}: has {} bytes, expected at most {}", path.filename().string(), size, most));
-  }
-  return io::ReadFile(path.string());
-}
-
-// Whether a name is that of a file in the same folder.
-bool IsPlainName(const std::string& name) {
-  return !name.empty() && name[0] != '.' && name.find('/') == std::string::npos &&
-         name.find('\0') == std::string::npos;
-}
-
-std::vector<fs::path> PhotosOf(const fs::path& path) {
-  std::vector<fs::path> photos;
-  for (const char* extension : {"jpg", "png", "webp"}) {
-    photos.push_back(path.parent_path() /
-                     fmt::format("{}.photo.{}", path.stem().string(), extension));
-  }
-  return photos;
-}
-
-fs::path ThumbnailOf(const fs::path& path) { return fs::path(path).replace_extension(".png"); }
 
 [[noreturn]] void RefuseReadOnly(const std::string& id) {
   throw StudioError(409, fmt::format("{} is shipped and stays as it is; save it as another", id),
@@ -79,37 +29,11 @@ fs::path ThumbnailOf(const fs::path& path) { return fs::path(path).replace_exten
 
 }  // namespace
 
-fs::path ShippedDataFolder() {
-  const char* data = std::getenv("RETARGET_DATA_DIR");
-  if (data && *data) return data;
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "retarget";
-  if (!error && fs::is_directory(installed, error)) return installed;
-  return RETARGET_DATA_DIR;
-}
-
-std::string CheckedId(const std::string& name) {
-  std::string id = name;
-  if (id.ends_with(".yaml")) id.resize(id.size() - 5);
-  const bool plain =
-      IsPlainName(id) && id.size() <= kLongestId &&
-      std::none_of(id.begin(), id.end(), [](unsigned char c) {
-        return c < ' ' || c == 0x7f || std::string("\\:*?\"<>|").find(c) != std::string::npos;
-      });
-  if (!plain || id.back() == ' ' || id.back() == '.') {
-    throw InputError(fmt::format(
-        "expected a name for a file, of at most {} bytes, without any of / \\ : * ? \" < > | and "
-        "no point at its ends, found \"{}\"",
-        kLongestId, io::Printable(name)));
-  }
-  return id;
-}
-
 StudioLibrary::StudioLibrary(const std::string& folder, const std::string& named) {
   const fs::path shipped = ShippedDataFolder();
   if (folder.empty()) {
-    roots_ = {{UserFolder(), false}, {shipped / "templates", true}, {shipped / "holds", true}};
+    roots_ = {
+        {UserTemplateFolder(), false}, {shipped / "templates", true}, {shipped / "holds", true}};
   } else {
     if (!fs::is_directory(folder)) throw InputError("--library " + folder + ": is no folder");
     roots_ = {{fs::canonical(folder), IsWithin(folder, shipped)}};
@@ -159,7 +83,7 @@ StudioLibrary::Place StudioLibrary::Existing(const std::string& id) const {
 
 LibraryFile StudioLibrary::ReadAt(const Place& place) const {
   LibraryFile file;
-  file.text = ReadUpTo(place.path, kMostText);
+  file.text = ReadAtMost(place.path, kMostText);
   file.hash = io::HashOf(file.text);
   return file;
 }
@@ -183,7 +107,7 @@ std::string StudioLibrary::Thumbnail(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const fs::path path = Existing(id).path, picture = ThumbnailOf(path);
   if (IsFileWithin(picture, path.parent_path())) {
-    std::string bytes = ReadUpTo(picture, kMostPicture);
+    std::string bytes = ReadAtMost(picture, kMostPicture);
     if (ImageKindOf(bytes)) return bytes;
   }
   throw StudioError(404, fmt::format("{} has no thumbnail", id));

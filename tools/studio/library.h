@@ -14,10 +14,6 @@
 
 namespace retarget::studio {
 
-// Folder of the shipped data: $RETARGET_DATA_DIR, else share/retarget beside the program's bin,
-// else where the program was built from.
-std::filesystem::path ShippedDataFolder();
-
 struct LibraryFile {
   std::string text;   // YAML
   std::string hash;   // of the text
@@ -89,9 +85,5 @@ class StudioLibrary {
   std::map<std::string, Listed> listed_;
   std::mutex mutex_;
 };
-
-// The id that a name for a file gives: "choke" of "choke.yaml". Throws InputError where it would
-// not stay in its folder, or not be a plain name.
-std::string CheckedId(const std::string& name);
 
 }  // namespace retarget::studio

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "io/template_file.h"
+#include "io/text/base64.h"
+#include "io/text/json.h"
 #include "io/text/nearest_name.h"
-#include "io/text/printable.h"
+#include "io/text/quoted.h"
 #include "tools/api/clip_posture.h"
 #include "tools/studio/answers.h"
 #include "tools/studio/error.h"
@@ -19,24 +21,24 @@ constexpr int kMostFrames = 10'000'000;
 constexpr size_t kLongestId = 200, kLongestYaml = 1 << 20;  // bytes
 constexpr size_t kMostThumbnail = 700'000;                  // bytes of its base64
 
-std::string TextOr(const io::Fields& fields, const char* key, size_t most = kLongestId) {
-  return fields.Has(key) ? fields.Text(key, most) : std::string();
+std::string TextOr(const io::Value& fields, const char* key, size_t most = kLongestId) {
+  return fields.Has(key) ? fields.Require(key).Text(most) : std::string();
 }
 
 // A PNG of the page's canvas.
-std::string ThumbnailOf(const io::Fields& fields) {
+std::string ThumbnailOf(const io::Value& fields) {
   if (!fields.Has("thumbnail")) return "";
-  std::string text = fields.Text("thumbnail", kMostThumbnail);
+  std::string text = fields.Require("thumbnail").Text(kMostThumbnail);
   const std::string prefix = "data:image/png;base64,";
   if (text.starts_with(prefix)) text.erase(0, prefix.size());
   std::string bytes;
   try {
-    bytes = FromBase64(text);
+    bytes = io::DecodeBase64(text);
   } catch (const InputError&) {
   }
   const auto kind = ImageKindOf(bytes);
   if (!kind || kind->type != std::string("image/png"))
-    fields.Refuse("thumbnail", "a PNG in base64");
+    fields.Require("thumbnail").RefuseExpecting("a PNG in base64");
   return bytes;
 }
 
@@ -117,43 +119,45 @@ StudioSessions::Locked StudioRoutes::SessionOf(const StudioRequest& request) {
 
 // -- Sessions ------------------------------------------------------------------------------------
 
-StudioPosture StudioRoutes::PostureToLoad(const io::Fields& fields) const {
+StudioPosture StudioRoutes::PostureToLoad(const io::Value& fields) const {
   const int given =
       fields.Has("yaml") + fields.Has("template") + fields.Has("rest") + fields.Has("clips");
   if (given != 1) throw InputError("expected one of yaml, template, rest, clips");
   if (fields.Has("yaml")) {
     StudioPosture out;
-    out.posture = io::ParseTemplate(fields.Text("yaml", kLongestYaml), "the text");
+    out.posture = io::ParseTemplate(fields.Require("yaml").Text(kLongestYaml), "the text");
     return out;
   }
   if (fields.Has("template")) {
-    return PostureOfLibrary(library_, fields.Text("template", kLongestId));
+    return PostureOfLibrary(library_, fields.Require("template").Text(kLongestId));
   }
   if (fields.Has("clips")) {
-    const io::Fields clips = fields.Object("clips");
-    clips.Only({"frame_a", "frame_b", "together"});
-    const int frame_a = clips.Integer("frame_a", 0, kMostFrames);
-    const int frame_b = clips.Integer("frame_b", 0, kMostFrames, frame_a);
+    const io::Value clips = fields.Require("clips");
+    clips.CheckKeys({"frame_a", "frame_b", "together"});
+    const int frame_a = clips.Require("frame_a").Integer(0, kMostFrames);
+    const auto own_b = clips.Find("frame_b");
+    const int frame_b = own_b ? own_b->Integer(0, kMostFrames) : frame_a;
     return UnsavedPosture(
-        api::PostureOfFrames(clips_->Both(), {frame_a, frame_b}, clips.Bool("together", false)));
+        api::PostureOfFrames(clips_->Both(), {frame_a, frame_b}, clips.Flag("together")));
   }
-  const io::Fields rest = fields.Object("rest");
-  rest.Only({"stature", "distance"});
+  const io::Value rest = fields.Require("rest");
+  rest.CheckKeys({"stature", "distance"});
   double stature[2] = {1.75, 1.75};
   if (rest.Has("stature")) {
-    const io::Fields of = rest.Object("stature");
-    of.Only({"a", "b"});
-    stature[0] = of.Number("a", 0.5, 3, stature[0]);
-    stature[1] = of.Number("b", 0.5, 3, stature[1]);
+    const io::Value of = rest.Require("stature");
+    of.CheckKeys({"a", "b"});
+    if (const auto a = of.Find("a")) stature[0] = a->Number(0.5, 3);
+    if (const auto b = of.Find("b")) stature[1] = b->Number(0.5, 3);
   }
+  const auto distance = rest.Find("distance");
   return UnsavedPosture(
-      posing::RestPosture(stature[0], stature[1], rest.Number("distance", 0, 100, 1)));
+      posing::RestPosture(stature[0], stature[1], distance ? distance->Number(0, 100) : 1));
 }
 
 void StudioRoutes::AddSessionRoutes() {
   routes_["POST /api/session"] = [this](const StudioRequest& request) {
-    const io::Message message = io::ParseMessage(request.body);
-    io::Fields(message, "").Only(std::vector<std::string>());
+    const io::Document message = io::ParseJson(request.body);
+    message.root().CheckKeys({});
     const std::string id = sessions_.Create(start_.posture);
     report::Json start = {{"library", library_->folder()}};
     if (start_.has_template) start["template"] = start_.posture.posture.name;
@@ -171,20 +175,20 @@ void StudioRoutes::AddSessionRoutes() {
     return StudioAnswer{200, "text/yaml; charset=utf-8", SessionOf(request)->Text()};
   };
   routes_["POST /api/load"] = [this](const StudioRequest& request) {
-    const io::Message message = io::ParseMessage(request.body);
-    const io::Fields fields(message, "");
-    fields.Only({"session", "yaml", "template", "rest", "clips"});
-    const auto session = sessions_.Find(fields.Text("session", kLongestId));
+    const io::Document message = io::ParseJson(request.body);
+    const io::Value fields = message.root();
+    fields.CheckKeys({"session", "yaml", "template", "rest", "clips"});
+    const auto session = sessions_.Find(fields.Require("session").Text(kLongestId));
     session->Load(PostureToLoad(fields));
     return JsonAnswer(session->WholeReply());
   };
   routes_["POST /api/do"] = [this](const StudioRequest& request) {
-    const io::Message message = io::ParseMessage(request.body);
-    const io::Fields fields(message, "");
-    fields.Only({"session", "ops", "live"});
-    const bool live = fields.Bool("live", false);
-    const std::vector<io::Fields> ops = fields.ObjectList("ops", kMostOps);
-    const auto session = sessions_.Find(fields.Text("session", kLongestId));
+    const io::Document message = io::ParseJson(request.body);
+    const io::Value fields = message.root();
+    fields.CheckKeys({"session", "ops", "live"});
+    const bool live = fields.Flag("live");
+    const std::vector<io::Value> ops = fields.Require("ops").List(kMostOps);
+    const auto session = sessions_.Find(fields.Require("session").Text(kLongestId));
     const auto result = session->Do(ops, live);
     return JsonAnswer(session->Reply(live, result));
   };
@@ -200,26 +204,26 @@ void StudioRoutes::AddLibraryRoutes() {
     return StudioAnswer{200, "image/png", library_->Thumbnail(Parameter(request, "id"))};
   };
   routes_["POST /api/save"] = [this](const StudioRequest& request) {
-    const io::Message message = io::ParseMessage(request.body);
-    const io::Fields fields(message, "");
-    fields.Only({"session", "id", "as", "overwrite", "thumbnail"});
+    const io::Document message = io::ParseJson(request.body);
+    const io::Value fields = message.root();
+    fields.CheckKeys({"session", "id", "as", "overwrite", "thumbnail"});
     const std::string thumbnail = ThumbnailOf(fields);
-    const auto session = sessions_.Find(fields.Text("session", kLongestId));
+    const auto session = sessions_.Find(fields.Require("session").Text(kLongestId));
     return JsonAnswer(session->Save(library_, TextOr(fields, "id"), TextOr(fields, "as"),
-                                    fields.Bool("overwrite", false), thumbnail));
+                                    fields.Flag("overwrite"), thumbnail));
   };
   routes_["POST /api/duplicate"] = [this](const StudioRequest& request) {
-    const io::Message message = io::ParseMessage(request.body);
-    const io::Fields fields(message, "");
-    fields.Only({"id", "as"});
-    return JsonAnswer({{"id", library_->Duplicate(fields.Text("id", kLongestId),
-                                                  fields.Text("as", kLongestId))}});
+    const io::Document message = io::ParseJson(request.body);
+    const io::Value fields = message.root();
+    fields.CheckKeys({"id", "as"});
+    return JsonAnswer({{"id", library_->Duplicate(fields.Require("id").Text(kLongestId),
+                                                  fields.Require("as").Text(kLongestId))}});
   };
   routes_["POST /api/delete"] = [this](const StudioRequest& request) {
-    const io::Message message = io::ParseMessage(request.body);
-    const io::Fields fields(message, "");
-    fields.Only({"id"});
-    library_->Delete(fields.Text("id", kLongestId));
+    const io::Document message = io::ParseJson(request.body);
+    const io::Value fields = message.root();
+    fields.CheckKeys({"id"});
+    library_->Delete(fields.Require("id").Text(kLongestId));
     return JsonAnswer(report::Json::object());
   };
 }

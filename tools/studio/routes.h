@@ -50,7 +50,7 @@ class StudioRoutes {
   void AddSolveRoutes();
   StudioAnswer StartSolve(const StudioRequest& request);
   StudioAnswer AnswerOrThrow(const StudioRequest& request);
-  StudioPosture PostureToLoad(const io::Fields& fields) const;
+  StudioPosture PostureToLoad(const io::Value& fields) const;
   StudioSessions::Locked SessionOf(const StudioRequest& request);
 
   StudioStart start_;

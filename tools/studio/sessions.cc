@@ -11,6 +11,7 @@
 #include "tools/studio/error.h"
 #include "tools/studio/guard.h"
 #include "tools/studio/image.h"
+#include "tools/studio/paths.h"
 #include "tools/studio/state.h"
 
 namespace retarget::studio {
@@ -60,9 +61,9 @@ StudioSession::StudioSession(const StudioPosture& start, const Settings& setting
   }
 }
 
-std::optional<solver::PoseResult> StudioSession::Do(const std::vector<io::Fields>& ops, bool live) {
+std::optional<solver::PoseResult> StudioSession::Do(const std::vector<io::Value>& ops, bool live) {
   std::vector<posing::PoseStep> steps;
-  for (const io::Fields& op : ops) steps.push_back(posing::ParsePoseJson(op, pose_.posture()));
+  for (const io::Value& op : ops) steps.push_back(posing::ParsePoseJson(op, pose_.posture()));
   if (steps.size() == 1) return DoSteps(steps, live);
   for (const posing::PoseStep& step : steps) {
     if (std::holds_alternative<posing::HistoryStep>(step)) {

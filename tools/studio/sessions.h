@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/text/message.h"
+#include "io/text/document.h"
 #include "model/body/tangle.h"
 #include "tools/posing/session.h"
 #include "tools/report/report.h"
@@ -40,7 +40,7 @@ class StudioSession {
   const posing::PoseSession& pose() const { return pose_; }
 
   // Does all operations, as one step of the history, or none. Throws InputError.
-  std::optional<solver::PoseResult> Do(const std::vector<io::Fields>& ops, bool live);
+  std::optional<solver::PoseResult> Do(const std::vector<io::Value>& ops, bool live);
   // Another posture, as one step of the history.
   void Load(const StudioPosture& posture);
   // {state, body?: where it changed since it was last told, result?}.

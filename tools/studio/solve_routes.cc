@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "io/settings_file.h"
+#include "io/text/json.h"
 #include "tools/studio/answers.h"
 #include "tools/studio/error.h"
 #include "tools/studio/routes.h"
@@ -13,40 +14,39 @@
 namespace retarget::studio {
 namespace {
 
-constexpr size_t kLongestId = 300, kMostSettings = 50;
+constexpr size_t kLongestId = 300, kMostSettings = 50, kLongestSetting = 100;
 
 // "0:240", as --frames takes it.
-std::string FramesOf(const io::Fields& fields) {
-  const std::string frames = fields.Text("frames", 40);
+std::string FramesOf(const io::Value& fields) {
+  const std::string frames = fields.Require("frames").Text(40);
   const bool good =
       std::count(frames.begin(), frames.end(), ':') == 1 &&
       std::all_of(frames.begin(), frames.end(), [](char c) { return c == ':' || isdigit(c); });
-  if (!good) fields.Refuse("frames", "a range such as \"0:240\"");
+  if (!good) fields.Require("frames").RefuseExpecting("a range such as \"0:240\"");
   return frames;
 }
 
 // "solve.start=template"; checked by the reader of settings itself.
-void AddSettings(const io::Fields& settings, const io::Message& values,
-                 std::vector<std::string>* arguments) {
-  if (values.size() > kMostSettings) throw InputError("settings: too many");
+void AddSettings(const io::Value& settings, std::vector<std::string>* arguments) {
+  settings.CheckMap();
+  if (settings.size() > kMostSettings) throw InputError("settings: too many");
   Settings scratch;
-  for (const auto& item : values.items()) {
-    const io::Message& value = item.value();
-    if (!value.is_string() && !value.is_number() && !value.is_boolean()) {
-      settings.Refuse(item.key(), "a number, a text, true or false");
+  for (const io::Value& value : settings.Items()) {
+    if (value.kind() != io::Value::Kind::kScalar) {
+      value.RefuseExpecting("a number, a text, true or false");
     }
-    const std::string assignment =
-        item.key() + "=" + (value.is_string() ? settings.Text(item.key(), 100) : value.dump());
+    if (value.text().size() > kLongestSetting) value.Text(kLongestSetting);
+    const std::string assignment = value.key() + "=" + value.text();
     io::SetByName(&scratch, assignment, "--set");
     arguments->push_back("--set");
     arguments->push_back(assignment);
   }
 }
 
-std::vector<std::string> ArgumentsOf(const io::Fields& fields, const StudioClips& clips) {
+std::vector<std::string> ArgumentsOf(const io::Value& fields, const StudioClips& clips) {
   std::vector<std::string> arguments;
   for (int f = 0; f < 2; ++f) {
-    const std::string id = fields.Text(f == 0 ? "clip_a" : "clip_b", kLongestId);
+    const std::string id = fields.Require(f == 0 ? "clip_a" : "clip_b").Text(kLongestId);
     for (const std::string& argument : clips.Arguments(id, f)) arguments.push_back(argument);
   }
   if (fields.Has("frames")) {
@@ -54,16 +54,16 @@ std::vector<std::string> ArgumentsOf(const io::Fields& fields, const StudioClips
     arguments.push_back(FramesOf(fields));
   }
   if (fields.Has("statures")) {
-    const io::Fields statures = fields.Object("statures");
-    statures.Only({"a", "b"});
+    const io::Value statures = fields.Require("statures");
+    statures.CheckKeys({"a", "b"});
     for (const char* figure : report::kFigure) {
       if (!statures.Has(figure)) continue;
       arguments.push_back(std::string("--stature-") + figure);
-      arguments.push_back(fmt::format("{}", statures.Number(figure, 0.5, 3)));
+      arguments.push_back(fmt::format("{}", statures.Require(figure).Number(0.5, 3)));
     }
   }
   if (fields.Has("settings")) {
-    AddSettings(fields.Object("settings"), fields.Require("settings"), &arguments);
+    AddSettings(fields.Require("settings"), &arguments);
   }
   return arguments;
 }
@@ -83,13 +83,13 @@ const char* TypeOf(const std::string& name) {
 }  // namespace
 
 StudioAnswer StudioRoutes::StartSolve(const StudioRequest& request) {
-  const io::Message message = io::ParseMessage(request.body);
-  const io::Fields fields(message, "");
-  fields.Only({"session", "clip_a", "clip_b", "frames", "statures", "settings"});
+  const io::Document message = io::ParseJson(request.body);
+  const io::Value fields = message.root();
+  fields.CheckKeys({"session", "clip_a", "clip_b", "frames", "statures", "settings"});
   SolveRequest solve;
   solve.arguments = ArgumentsOf(fields, *clips_);
   {
-    const auto session = sessions_.Find(fields.Text("session", kLongestId));
+    const auto session = sessions_.Find(fields.Require("session").Text(kLongestId));
     solve.template_name = session->pose().posture().name;
     solve.template_text = session->Text();
   }
@@ -100,10 +100,10 @@ void StudioRoutes::AddSolveRoutes() {
   routes_["GET /api/clips"] = [this](const StudioRequest&) { return JsonAnswer(clips_->List()); };
   routes_["POST /api/solve"] = [this](const StudioRequest& request) { return StartSolve(request); };
   routes_["POST /api/solve/stop"] = [this](const StudioRequest& request) {
-    const io::Message message = io::ParseMessage(request.body);
-    const io::Fields fields(message, "");
-    fields.Only({"job"});
-    jobs_->Stop(fields.Text("job", kLongestId));
+    const io::Document message = io::ParseJson(request.body);
+    const io::Value fields = message.root();
+    fields.CheckKeys({"job"});
+    jobs_->Stop(fields.Require("job").Text(kLongestId));
     return JsonAnswer(report::Json::object());
   };
   routes_["GET /api/solve/events"] = [this](const StudioRequest& request) {

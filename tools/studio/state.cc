@@ -2,21 +2,18 @@
 
 #include <cmath>
 
-#include "io/template_keys.h"
 #include "model/geometry/so3.h"
+#include "tools/posing/posture_json.h"
 
 namespace retarget::studio {
 namespace {
 
-constexpr double kSamePlace = 1e-9;  // m
+using posing::DegreesJson;
+using posing::NodesJson;
+using posing::QuatJson;
+using posing::VectorJson;
 
-// To what is seen: a message is half as long so.
-double Rounded(double x) { return std::round(1e6 * x) / 1e6 + 0.0; }  // + 0.0 makes -0 a 0
-report::Json VectorJson(const Vec3& v) { return {Rounded(v.x()), Rounded(v.y()), Rounded(v.z())}; }
-report::Json QuatJson(const Quat& q) {
-  return {Rounded(q.x()), Rounded(q.y()), Rounded(q.z()), Rounded(q.w())};
-}
-report::Json DegreesJson(const Quat& q) { return VectorJson(LogSo3(q) / kDegree); }
+constexpr double kSamePlace = 1e-9;  // m
 
 report::Json LimitJson(const JointLimit& limit, bool locked) {
   if (locked) return {{"kind", "fixed"}};
@@ -86,32 +83,20 @@ report::Json FigureJson(const Body& body, const Pose& pose) {
           {"rotation_vectors", turns}};
 }
 
-report::Json NodesJson(const Body& body, const std::vector<int>& nodes) {
-  report::Json out = report::Json::array();
-  for (const int n : nodes) out.push_back(body.nodes[n].name);
-  return out;
-}
-
 report::Json PinsJson(const posing::PoseState& state) {
   report::Json out = report::Json::array();
   for (const posing::PinnedNode& pin : state.pins) {
     report::Json entry = {{"figure", report::kFigure[pin.figure]},
                           {"node", state.posture.body[pin.figure].nodes[pin.node].name},
                           {"position", VectorJson(pin.position)}};
-    if (pin.ray) {
-      entry["ray"] = {{"origin", VectorJson(pin.ray->origin)},
-                      {"direction", VectorJson(pin.ray->direction)}};
-    }
+    if (pin.ray) entry["ray"] = posing::RayJson(*pin.ray);
     out.push_back(entry);
   }
   return out;
 }
 
-report::Json HoldPointJson(const HoldPoint& point, const std::array<Body, 2>& body) {
-  report::Json out = {{"figure", io::FigureNames()[point.figure]}};
-  if (point.figure != kWorld) out["node"] = body[point.figure].nodes[point.node].name;
-  out["offset"] = VectorJson(point.offset);
-  return out;
+report::Json PointJson(const HoldPoint& point, const std::array<Body, 2>& body) {
+  return posing::HoldPointJson(point.figure, point.node, point.offset, body);
 }
 
 report::Json HoldsJson(const TemplatePosture& posture) {
@@ -120,8 +105,8 @@ report::Json HoldsJson(const TemplatePosture& posture) {
   for (const Hold& hold : posture.holds) {
     const Vec3 from = HoldPosition(hold.from, posture.body, posed);
     const Vec3 to = HoldPosition(hold.to, posture.body, posed);
-    out.push_back({{"from", HoldPointJson(hold.from, posture.body)},
-                   {"to", HoldPointJson(hold.to, posture.body)},
+    out.push_back({{"from", PointJson(hold.from, posture.body)},
+                   {"to", PointJson(hold.to, posture.body)},
                    {"rotation", hold.rotation},
                    {"error_m", (from - to).norm()},
                    {"from_place", VectorJson(from)},
@@ -130,34 +115,12 @@ report::Json HoldsJson(const TemplatePosture& posture) {
   return out;
 }
 
-report::Json RequestsJson(const TemplatePosture& posture) {
-  report::Json out = report::Json::array();
-  for (const TangleRequest& t : posture.tangles) {
-    report::Json entry = {{"a", NodesJson(posture.body[0], {t.a.from, t.a.to})},
-                          {"b", NodesJson(posture.body[1], {t.b.from, t.b.to})}};
-    out.push_back(entry);
+report::Json OptionsJson(const posing::PoseOptions& options) {
+  report::Json out;
+  for (const posing::SolveOption& option : posing::kSolveOptions) {
+    out[option.name] = options.*option.on;
   }
   return out;
-}
-
-report::Json OptionsJson(const posing::PoseOptions& o) {
-  return {{"holds", o.holds}, {"limits", o.limits},   {"penetration", o.penetration},
-          {"floor", o.floor}, {"tangles", o.tangles}, {"feet", o.feet},
-          {"root", o.root}};
-}
-
-report::Json ViewJson(const std::optional<TemplatePhoto>& photo) {
-  if (!photo) return nullptr;
-  return {{"file", photo->file},
-          {"opacity", photo->opacity},
-          {"scale", photo->scale},
-          {"offset", {photo->offset.x(), photo->offset.y()}}};
-}
-report::Json ViewJson(const std::optional<TemplateCamera>& camera) {
-  if (!camera) return nullptr;
-  return {{"eye", VectorJson(camera->eye)},
-          {"target", VectorJson(camera->target)},
-          {"fov_deg", camera->fov_deg}};
 }
 
 }  // namespace
@@ -185,9 +148,9 @@ report::Json PostureStateJson(const posing::PoseSession& session) {
   out["pins"] = PinsJson(state);
   out["options"] = OptionsJson(state.options);
   out["holds"] = HoldsJson(posture);
-  out["tangles"] = RequestsJson(posture);
-  out["photo"] = ViewJson(posture.photo);
-  out["camera"] = ViewJson(posture.camera);
+  out["tangles"] = posing::TanglesJson(posture.tangles, posture.body);
+  out["photo"] = posing::PhotoJson(posture.photo);
+  out["camera"] = posing::CameraJson(posture.camera);
   return out;
 }
 

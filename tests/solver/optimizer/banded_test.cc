@@ -6,6 +6,7 @@
 #include <random>
 
 #include "solver/problem/smoothness.h"
+#include "tests/solver/scene_fixture.h"
 
 namespace retarget::solver {
 namespace {
@@ -20,16 +21,17 @@ struct RandomSystem {
 
   RandomSystem(int frames_, int n_, std::vector<AnchorSpan> spans_)
       : frames(frames_), n(n_), spans(std::move(spans_)) {
-    std::srand(5);
-    stencil = VecX::Random(n).cwiseAbs() * 30;
+    std::mt19937 random(5);
+    stencil = RandomMatrix(n, 1, &random).cwiseAbs() * 30;
     for (int t = 0; t < frames; ++t) {
       std::vector<int> here;
       for (size_t k = 0; k < spans.size(); ++k) {
         if (spans[k].first <= t && t <= spans[k].last) here.push_back(static_cast<int>(k));
       }
       standing.push_back(here);
-      jacobian.push_back(MatX::Random(n + 3 + kAnchorSize * static_cast<long>(here.size()), n));
-      residual.push_back(VecX::Random(jacobian.back().rows()));
+      jacobian.push_back(
+          RandomMatrix(n + 3 + kAnchorSize * static_cast<long>(here.size()), n, &random));
+      residual.push_back(RandomMatrix(jacobian.back().rows(), 1, &random));
     }
   }
 
@@ -74,7 +76,8 @@ struct RandomSystem {
 
 void Compare(int frames, int n, const std::vector<AnchorSpan>& spans, int threads) {
   const RandomSystem system(frames, n, spans);
-  const VecX damping = VecX::Random(frames).cwiseAbs();
+  std::mt19937 random(6);
+  const VecX damping = RandomMatrix(frames, 1, &random).cwiseAbs();
   const VecX expected = system.DenseSolve(damping);
   BandedSystem banded(frames, spans, system.stencil);
   BandedStep step;

@@ -52,8 +52,8 @@ TEST(TermCost, AddsUpToTheCost) {
   const Scene scene = SmallScene(6, 0.3);
   const Problem problem(scene, {});
   Unknowns u = UnknownsFromPoses(scene, scene.source);
-  u.edit.setRandom();
-  u.edit *= 0.1;
+  std::mt19937 random(5);
+  u.edit = 0.1 * RandomMatrix(u.edit.rows(), u.edit.cols(), &random);
   double sum = 0;
   for (const TermCost& c : problem.CostByTerm(u)) sum += c.cost;
   EXPECT_NEAR(sum, problem.Cost(u, 1, 1), 1e-9 * sum);

@@ -11,9 +11,9 @@
 #include "model/geometry/so3.h"
 #include "solver/start/fit_template.h"
 #include "tests/tools/run_program.h"
+#include "tools/posing/command_line.h"
 #include "tools/posing/queries.h"
 #include "tools/posing/session.h"
-#include "tools/posing/words.h"
 
 namespace retarget::posing {
 namespace {
@@ -84,7 +84,7 @@ Operation RandomOperation(const PoseState& state, std::mt19937* random) {
       if (state.pins.empty()) return SwapFigures{};
       return Unpin{state.pins[0].figure, state.pins[0].node};
     case 6:
-      return SetOption{static_cast<SolveOption>(any(*random) % 7), any(*random) % 2 == 0};
+      return SetOption{kSolveOptions[any(*random) % 7].on, any(*random) % 2 == 0};
     case 7:
       return MoveFigure{f, v};
     case 8:

@@ -4,9 +4,11 @@
 #include <thread>
 
 #include "io/template_file.h"
+#include "io/text/base64.h"
 #include "tests/tools/studio/studio_program.h"
 #include "tools/studio/image.h"
 #include "tools/studio/library.h"
+#include "tools/studio/paths.h"
 
 namespace retarget::studio {
 namespace {
@@ -42,11 +44,11 @@ TEST(StudioImage, Base64) {
                                                        {"Zm9vYmFy", "foobar"},
                                                        {"+/+/", "\xfb\xff\xbf"}};
   for (const auto& [text, bytes] : known) {
-    EXPECT_EQ(FromBase64(text), bytes);
+    EXPECT_EQ(io::DecodeBase64(text), bytes);
     EXPECT_EQ(Base64(bytes), text);
   }
   for (const char* bad : {"Z", "Zg", "Zg=", "Zm9v Zg==", "Z===", "====", "=m9v", "Zm=v", "Zm9-"}) {
-    EXPECT_THROW(FromBase64(bad), InputError) << bad;
+    EXPECT_THROW(io::DecodeBase64(bad), InputError) << bad;
   }
 }
 

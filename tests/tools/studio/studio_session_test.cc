@@ -6,7 +6,7 @@
 #include "model/geometry/so3.h"
 #include "tests/tools/studio/studio_program.h"
 #include "tools/api/clip_posture.h"
-#include "tools/posing/named.h"
+#include "tools/posing/label.h"
 #include "tools/posing/queries.h"
 #include "tools/posing/session.h"
 
@@ -45,7 +45,7 @@ TEST(StudioSession, EveryOperationIsThatOfTheCore) {
   const std::pair<report::Json, posing::Operation> steps[] = {
       {{{"op", "pin"}, {"figure", "b"}, {"node", "left_toe"}}, posing::Pin{1, toe, std::nullopt}},
       {{{"op", "set_option"}, {"option", "floor"}, {"on", false}},
-       posing::SetOption{posing::SolveOption::kFloor, false}},
+       posing::SetOption{&posing::PoseOptions::floor, false}},
       {{{"op", "drag"}, {"figure", "b"}, {"node", "head_top"}, {"target", VectorJson(target)}},
        posing::Drag{1, head, target, 0}},
       {{{"op", "unpin"}, {"figure", "b"}, {"node", "left_toe"}}, posing::Unpin{1, toe}},

@@ -30,7 +30,7 @@ export class Actions {
   redo(): void {
     if (this.store.state.can_redo) this.inHistory("redo");
   }
-  private inHistory(op: string): void {
+  private inHistory(op: "undo" | "redo"): void {
     ++this.store.photoVersion; // another picture may come back
     void this.do({ op });
   }
@@ -62,7 +62,11 @@ export class Actions {
     void this.do({ op: pinned ? "unpin" : "pin", figure: pick.figure, node });
   }
   clearPins(): void {
-    const ops = this.store.state.pins.map(({ figure, node }) => ({ op: "unpin", figure, node }));
+    const ops = this.store.state.pins.map(({ figure, node }): Op => ({
+      op: "unpin",
+      figure,
+      node,
+    }));
     if (ops.length > 0) void this.do(...ops);
   }
 
@@ -121,7 +125,7 @@ export class Actions {
         ? { op: "add_hold", ...hold }
         : { op: "edit_hold", index: holdEdited, ...hold };
     this.store.set({ tool: "pose", holdFrom: null, holdEdited: null, panel: "holds" });
-    const ops = to.offset ? [op, { op: "settle" }] : [op];
+    const ops: Op[] = to.offset ? [op, { op: "settle" }] : [op];
     void this.do(...ops).then((done) => {
       if (done) this.store.say(`${endOf(hold.from)} holds ${endOf(to)}.`, "good");
     });

@@ -4,7 +4,7 @@ import { element } from "../shared/dom";
 import { words } from "../shared/names";
 import type { Actions } from "./actions";
 import { readLimits } from "./limits";
-import type { Op, Vec } from "./protocol";
+import type { GestureOp, Vec } from "./protocol";
 import type { Sender } from "./sender";
 import type { Store } from "./store";
 import { VectorFields } from "./vector_fields";
@@ -64,7 +64,7 @@ export class JointSection {
     this.element = section("Joint", this.none, this.content);
   }
 
-  private dragOp(axis: number, value: number): Op | null {
+  private dragOp(axis: number, value: number): GestureOp | null {
     const { selected } = this.store.ui;
     if (!selected) return null;
     const target = [...this.store.place(selected)] as Vec;
@@ -72,10 +72,11 @@ export class JointSection {
     return { op: "drag", figure: selected.figure, node: this.store.nodeName(selected), target };
   }
 
-  private turnOp(axis: number, value: number): Op {
+  private turnOp(axis: number, value: number): GestureOp {
     const { figure, joint } = this.store.ui;
     const { root, rotation_vectors } = this.store.state.figures[figure];
-    const rotation_vector = [...(joint === 0 ? root.rotation_vector : rotation_vectors[joint])];
+    const now = joint === 0 ? root.rotation_vector : rotation_vectors[joint];
+    const rotation_vector: Vec = [...now];
     rotation_vector[axis] = value;
     if (joint === 0) return { op: "set_root", figure, position: root.position, rotation_vector };
     const { name } = this.store.body[figure].links[joint];

@@ -5,7 +5,7 @@ import { figureNames, type FigureName, type PerFigure } from "../shared/names";
 import type { Actions } from "./actions";
 import { JointSection } from "./joint_section";
 import { statureRange } from "./measures";
-import { optionNames, type Op, type OptionName } from "./protocol";
+import { optionNames, type GestureOp, type OptionName, type Vec } from "./protocol";
 import type { Sender } from "./sender";
 import type { Shown, Store } from "./store";
 import { VectorFields } from "./vector_fields";
@@ -72,7 +72,12 @@ export class FiguresPanel {
     this.leader = select(
       "whose motion leads the figure in a solve",
       leaders,
-      (leader) => void actions.do({ op: "set_root_leader", figure: figure(), leader }),
+      (leader) =>
+        void actions.do({
+          op: "set_root_leader",
+          figure: figure(),
+          leader: leader === "partner" ? "partner" : "world",
+        }),
     );
     const ways: [string, string][] = [
       ["shown", "shown"],
@@ -167,10 +172,13 @@ export class FiguresPanel {
     );
   }
 
-  private rootOp(axis: number, value: number, which: "position" | "rotation_vector"): Op {
+  private rootOp(axis: number, value: number, which: "position" | "rotation_vector"): GestureOp {
     const { figure } = this.store.ui;
     const { position, rotation_vector } = this.store.state.figures[figure].root;
-    const root = { position: [...position], rotation_vector: [...rotation_vector] };
+    const root: { position: Vec; rotation_vector: Vec } = {
+      position: [...position],
+      rotation_vector: [...rotation_vector],
+    };
     root[which][axis] = value;
     return { op: "set_root", figure, ...root };
   }

@@ -3,6 +3,9 @@
 
 import type { FigureName, PerFigure } from "../shared/names";
 import type { Requirement } from "../shared/requirement";
+import type { OptionName } from "./operations";
+
+export { optionNames, type GestureOp, type Op, type OptionName } from "./operations";
 
 export type Vec = [number, number, number];
 export type Quat = [number, number, number, number];
@@ -61,6 +64,8 @@ export interface Hold {
 export interface Tangle {
   a: Path;
   b: Path;
+  from?: number; // s
+  to?: number;
 }
 export interface Tag extends Tangle {
   gli: number;
@@ -96,16 +101,6 @@ export interface Camera {
   target: Vec;
   fov_deg: number;
 }
-export const optionNames = [
-  "holds",
-  "limits",
-  "penetration",
-  "floor",
-  "tangles",
-  "feet",
-  "root",
-] as const;
-export type OptionName = (typeof optionNames)[number];
 
 export interface State {
   revision: number;
@@ -159,9 +154,6 @@ export interface Reply {
   result?: Result | null;
   warning?: string;
 }
-// One operation of tools/posing/operations.h: {op: "drag", figure: "a", ...}.
-export type Op = { op: string } & Record<string, unknown>;
-
 export interface TemplateInfo {
   id: string;
   name: string;

@@ -2,7 +2,7 @@
 
 import { element } from "../shared/dom";
 import { newGesture } from "./gizmo";
-import type { Op, Vec } from "./protocol";
+import type { GestureOp, Vec } from "./protocol";
 import type { Sender } from "./sender";
 import { number, type NumberField } from "./widgets";
 
@@ -13,7 +13,7 @@ export interface VectorOptions {
   step: number;
   digits: number;
   scrub: boolean; // whether labels can be dragged: the operation takes a gesture
-  op: (axis: number, value: number) => Op | null;
+  op: (axis: number, value: number) => GestureOp | null;
 }
 
 export class VectorFields {
@@ -45,7 +45,7 @@ export class VectorFields {
   private field(name: string, axis: number): NumberField {
     const { title, unit, step, digits, scrub, op } = this.options;
     let last = 0;
-    const send = (made: Op | null) => {
+    const send = (made: GestureOp | null) => {
       if (made) void this.sender.do(made);
     };
     const live = (value: number) => {

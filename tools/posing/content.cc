@@ -1,4 +1,4 @@
-#include "tools/posing/say.h"
+#include "tools/posing/content.h"
 
 #include <fmt/format.h>
 
@@ -26,44 +26,31 @@ Hold HoldOf(const HoldRequest& request, const TemplatePosture& posture) {
   if (request.from.figure == request.to_figure && request.from.node == request.to_node) {
     throw InputError("hold: expected two different points, found the same node twice");
   }
-  const std::array<PosedBody, 2> posed = PosedFigures(posture);
-  const auto rotation = [&](int figure, int node) {
-    return posed[figure].rotation[posture.body[figure].nodes[node].link];
-  };
-  Hold hold;
-  hold.from = request.from;
-  hold.to = {request.to_figure, world ? 0 : request.to_node, Vec3::Zero()};
-  hold.rotation = request.rotation;
-  const Mat3 to = world ? Mat3(Mat3::Identity()) : rotation(request.to_figure, request.to_node);
-  const Vec3 origin = world ? Vec3(Vec3::Zero()) : posed[request.to_figure].node[request.to_node];
-  hold.to.offset = request.to_offset.value_or(
-      to.transpose() * (HoldPosition(hold.from, posture.body, posed) - origin));
+  const Hold hold = io::MakeHold(request, posture.body, PosedFigures(posture));
   CheckPlace(hold.to.offset, "offset");
-  const Mat3 relative = to.transpose() * rotation(hold.from.figure, hold.from.node);
-  if (hold.rotation) hold.relative_rotation = Quat(relative).normalized();
   return hold;
 }
 
 }  // namespace
 
-void Say(const AddHold& op, TemplatePosture* posture) {
+void Apply(const AddHold& op, TemplatePosture* posture) {
   if (posture->holds.size() >= kMostHolds) {
     throw InputError(fmt::format("hold: the posture has {} already", kMostHolds));
   }
   posture->holds.push_back(HoldOf(op.hold, *posture));
 }
 
-void Say(const EditHold& op, TemplatePosture* posture) {
+void Apply(const EditHold& op, TemplatePosture* posture) {
   CheckHold(op.index, *posture);
   posture->holds[op.index] = HoldOf(op.hold, *posture);
 }
 
-void Say(const RemoveHold& op, TemplatePosture* posture) {
+void Apply(const RemoveHold& op, TemplatePosture* posture) {
   CheckHold(op.index, *posture);
   posture->holds.erase(posture->holds.begin() + op.index);
 }
 
-void Say(const SetSupports& op, TemplatePosture* posture) {
+void Apply(const SetSupports& op, TemplatePosture* posture) {
   for (const int n : op.nodes) CheckNode(*posture, op.figure, n);
   CheckFigure(op.figure);
   if (std::set<int>(op.nodes.begin(), op.nodes.end()).size() != op.nodes.size()) {
@@ -72,7 +59,7 @@ void Say(const SetSupports& op, TemplatePosture* posture) {
   posture->supports[op.figure] = op.nodes;
 }
 
-void Say(const SetRootLeader& op, TemplatePosture* posture) {
+void Apply(const SetRootLeader& op, TemplatePosture* posture) {
   CheckFigure(op.figure);
   if (op.leader == RootLeader::kPartner && posture->root[1 - op.figure] == RootLeader::kPartner) {
     throw InputError("root: at most one figure may follow its partner");
@@ -80,7 +67,7 @@ void Say(const SetRootLeader& op, TemplatePosture* posture) {
   posture->root[op.figure] = op.leader;
 }
 
-void Say(const SetTangles& op, TemplatePosture* posture) {
+void Apply(const SetTangles& op, TemplatePosture* posture) {
   for (const TangleRequest& tangle : op.tangles) {
     for (int f = 0; f < 2; ++f) {
       const Path& path = f == 0 ? tangle.a : tangle.b;
@@ -94,15 +81,15 @@ void Say(const SetTangles& op, TemplatePosture* posture) {
   posture->tangles = op.tangles;
 }
 
-void Say(const SetName& op, TemplatePosture* posture) { posture->name = op.name; }
+void Apply(const SetName& op, TemplatePosture* posture) { posture->name = op.name; }
 
-void Say(const SetDescription& op, TemplatePosture* posture) {
+void Apply(const SetDescription& op, TemplatePosture* posture) {
   posture->description = op.description;
 }
 
-void Say(const SetTags& op, TemplatePosture* posture) { posture->tags = op.tags; }
+void Apply(const SetTags& op, TemplatePosture* posture) { posture->tags = op.tags; }
 
-void Say(const SetPhoto& op, TemplatePosture* posture) {
+void Apply(const SetPhoto& op, TemplatePosture* posture) {
   if (op.photo) {
     const TemplatePhoto& p = *op.photo;
     const bool good = p.opacity >= 0 && p.opacity <= 1 && p.scale >= 1e-4 && p.scale <= 1e4 &&
@@ -112,7 +99,7 @@ void Say(const SetPhoto& op, TemplatePosture* posture) {
   posture->photo = op.photo;
 }
 
-void Say(const SetCamera& op, TemplatePosture* posture) {
+void Apply(const SetCamera& op, TemplatePosture* posture) {
   if (op.camera) {
     CheckPlace(op.camera->eye, "camera");
     CheckPlace(op.camera->target, "camera");

@@ -8,6 +8,6 @@
 namespace retarget::posing {
 
 // "drag of a/left_hand". Indices that are not valid are left out.
-std::string Named(const Operation& operation, const TemplatePosture& posture);
+std::string LabelOf(const Operation& operation, const TemplatePosture& posture);
 
 }  // namespace retarget::posing

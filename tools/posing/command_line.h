@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "tools/posing/state.h"
@@ -11,13 +10,15 @@ namespace retarget::posing {
 
 // The options that do something to a posture, for the command line's table of contents.
 struct PoseWord {
-  const char* name;   // "drag"
-  const char* value;  // how its value reads; empty: takes none
-  const char* help;
+  std::string name;   // "hold"
+  std::string alias;  // its name in JSON where that differs: "add-hold"; may be empty
+  std::string value;  // how its value reads; empty: takes none
+  std::string help;
 };
-const std::vector<PoseWord>& PoseWords();
+std::vector<PoseWord> PoseWords();
 
-// Throws InputError: "--drag a/left_hnad=0,1,0: unknown node "left_hnad", did you mean ...".
+// By name or alias. Throws InputError:
+// "--drag a/left_hnad=0,1,0: unknown node "left_hnad", did you mean ...".
 PoseStep ParsePoseStep(const std::string& name, const std::string& value, const PoseState& state);
 
 }  // namespace retarget::posing

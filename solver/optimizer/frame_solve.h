@@ -1,0 +1,51 @@
+// One frame of a problem, solved by itself: Levenberg-Marquardt on its dense normal equations. No
+// step moves a node too far or takes a limb through a limb of the other body. The quasi-static
+// start and the posing are made of it.
+#pragma once
+
+#include <vector>
+
+#include "model/body/pass_through.h"
+#include "solver/problem/problem.h"
+
+namespace retarget::solver {
+
+struct FrameSolveOptions {
+  int max_iterations = 8;
+  double max_seconds = 0;  // 0: no limit; else it stops after the iteration that reaches it
+  double step_limit_m = 0.05;
+  double gli_jump = 0.4;             // turns; a larger jump of a segment pair rejects the step
+  double guard_reach = kGuardReach;  // m (LargestGliJump)
+  double relative_decrease = 1e-3;   // of the cost: iterations that gain less ...
+  int flat_iterations = 1;           // ... so many times in a row, end the solve
+};
+
+// A contact whose anchor still goes where its node is.
+struct FreeAnchor {
+  int anchor = 0;  // column of Unknowns::anchor
+  int figure = 0, node = 0;
+};
+
+struct FrameTask {
+  int t = 0;
+  // Where not 0, the edit x stays near another one: cost 1/2 |follow_weight (x - follow)|^2.
+  double follow_weight = 0;
+  VecX follow = {};
+  // Places from which no limb may come through a limb either; null: none.
+  const NodePositions* also_from = nullptr;
+  std::vector<FreeAnchor> free_anchors = {};
+};
+
+struct FrameSolved {
+  NodePositions node;
+  double cost = 0;
+  int iterations = 0;      // accepted steps
+  bool converged = false;  // nothing is left to gain
+  bool stalled = false;    // no step was acceptable; neither: the iterations or the time ran out
+};
+
+// Solves frame task.t from the edit it has in `x`, and leaves the best there.
+FrameSolved SolveFrame(const Problem& problem, const FrameTask& task,
+                       const FrameSolveOptions& options, Unknowns* x);
+
+}  // namespace retarget::solver

@@ -1,0 +1,104 @@
+#include "solver/simulation/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/body/pass_through.h"
+#include "model/body/path.h"
+#include "model/geometry/polyline.h"
+
+namespace retarget::solver {
+namespace {
+
+// A root that is as far off its target as that of a figure that fell, in any direction (share of
+// the stature; kFallen of simulation.cc).
+constexpr double kStrayed = 0.35;
+// A tag is lost where its s GLI stays below half of what counts as tangled ...
+constexpr double kLostGli = 0.5 * kTangleThreshold;  // turns
+// ... from some frame to either end of the clip, for at least this long: at the ends a tangle may
+// just be closing or opening.
+constexpr double kLostTime = 0.5;  // s
+
+void Stop(SimulationResult* result, SimulationStatus status, const std::string& message,
+          int frame) {
+  result->status = status;
+  result->message = message;
+  result->frame = frame;
+}
+
+std::array<PosedBody, 2> PosedAt(const Scene& scene, const SimulationResult& result, int t) {
+  return {PoseBody(scene.body[0], result.motion[0].frames[t]),
+          PoseBody(scene.body[1], result.motion[1].frames[t])};
+}
+
+// Lost for good: gone from some frame to either end of the clip.
+void JudgeTags(const Scene& scene, SimulationResult* result) {
+  const int least = static_cast<int>(std::ceil(kLostTime * scene.fps()));
+  for (const HeldTangle& held : scene.tangles) {
+    const auto lost_at = [&](int t) {
+      const std::array<PosedBody, 2> posed = PosedAt(scene, *result, t);
+      return held.sign *
+                 PolylineGli(PointsOn(posed[0].node, NodesOn(scene.body[0], held.tag.tangle.a)),
+                             PointsOn(posed[1].node, NodesOn(scene.body[1], held.tag.tangle.b))) <
+             kLostGli;
+    };
+    int first = scene.num_frames(), last = -1;
+    while (first > 0 && lost_at(first - 1)) --first;
+    while (last + 1 < first && lost_at(last + 1)) ++last;
+    const bool at_end = scene.num_frames() - first >= std::min(least, scene.num_frames());
+    if (!at_end && last + 1 < least) continue;
+    const auto name = [&](int f, int n) { return scene.body[f].nodes[n].name; };
+    const Tangle& t = held.tag.tangle;
+    Stop(result, SimulationStatus::kLostHold,
+         "it lost the tag a (" + name(0, t.a.from) + ", " + name(0, t.a.to) + ") x b (" +
+             name(1, t.b.from) + ", " + name(1, t.b.to) + ") for good " +
+             (at_end ? "at frame " + std::to_string(first)
+                     : "before frame " + std::to_string(last + 1)),
+         at_end ? first : last + 1);
+    return;
+  }
+}
+
+void JudgePassThroughs(const Scene& scene, SimulationResult* result) {
+  std::array<PosedBody, 2> before = PosedAt(scene, *result, 0);
+  for (int t = 1; t < scene.num_frames(); ++t) {
+    const std::array<PosedBody, 2> now = PosedAt(scene, *result, t);
+    const GliJump jump = LargestGliJump(scene.body, {before[0].node, before[1].node},
+                                        {now[0].node, now[1].node}, kGuardReach);
+    if (jump.size > kPassThroughGli) {
+      Stop(result, SimulationStatus::kPassedThrough,
+           scene.body[0].nodes[jump.node_a].name + " of a went through " +
+               scene.body[1].nodes[jump.node_b].name + " of b at frame " + std::to_string(t),
+           t);
+      return;
+    }
+    before = now;
+  }
+}
+
+// A figure that stumbled and is dragged along shows nothing of its motion: no start for a solve.
+void JudgeStray(const Stray& stray, SimulationResult* result) {
+  if (stray.share < kStrayed) return;
+  char text[100];
+  std::snprintf(text, sizeof text, "%s strayed %.2f m from its way at frame %d",
+                stray.figure == 0 ? "a" : "b", stray.distance_m, stray.frame);
+  Stop(result, SimulationStatus::kStrayed, text, stray.frame);
+}
+
+}  // namespace
+
+void JudgeSimulation(const Scene& scene, const Stray& stray, SimulationResult* result) {
+  const auto fine = [&] { return result->status == SimulationStatus::kCompleted; };
+  if (!fine()) {
+    result->message += "; " + std::to_string(result->frames_simulated) + " of " +
+                       std::to_string(scene.num_frames()) + " frames were simulated";
+    return;
+  }
+  JudgeTags(scene, result);
+  if (fine()) JudgePassThroughs(scene, result);
+  if (fine()) JudgeStray(stray, result);
+  if (fine()) result->message = "it ran to the end";
+}
+
+}  // namespace retarget::solver

@@ -1,0 +1,10 @@
+// The operations as types of the studio's page: tools/web/src/studio/operations.ts.
+#pragma once
+
+#include <string>
+
+namespace retarget::posing {
+
+std::string OperationsTypeScript();
+
+}  // namespace retarget::posing
