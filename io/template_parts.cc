@@ -7,8 +7,6 @@
 namespace retarget::io {
 namespace {
 
-constexpr double kMaxTime = 1e6;  // s
-
 Vec3 OffsetOf(const Value& point) {
   const auto offset = point.Find("offset");
   return offset ? offset->Vector(kMaxPosition, "m") : Vec3::Zero();

@@ -72,6 +72,7 @@ std::vector<MetricRow> MetricRows() {
 Json LimitOf(const MetricRow& row, const Json& requirements) {
   if (!row.requirement) return nullptr;
   for (const Json& check : requirements) {
+    check.at("name").get_ref<const std::string&>();  // else it is no requirement
     const ReadRequirement read = RequirementFromJson(check);
     if (!read.Is(*row.requirement) || (row.figure >= 0 && read.figure != row.figure)) continue;
     return row.scale * check.at("limit").get<double>();

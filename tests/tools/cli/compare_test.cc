@@ -81,6 +81,21 @@ TEST_F(Compare, TheBaselineIsTheFirstRunsAndMayBeMissing) {
   EXPECT_EQ(Line(text.out, "hold error, cm")[0], "50.00*");
 }
 
+// Reports from before requirements had kinds show the same limits.
+TEST_F(Compare, OldReportsAreRead) {
+  const std::string now = RunProgram(scratch_, "compare " + one_ + " " + two_).out;
+  EXPECT_FALSE(Line(now, "foot drift b, cm").empty());
+  for (const std::string& folder : {one_, two_}) {
+    Json report = Report(folder);
+    for (Json& requirement : report["requirements"]) {
+      for (const char* key : {"kind", "item", "figure", "frame", "limbs"}) requirement.erase(key);
+    }
+    for (const char* figure : {"a", "b"}) report["bodies"][figure].erase("nodes");
+    Rewrite(folder, report);
+  }
+  EXPECT_EQ(RunProgram(scratch_, "compare " + one_ + " " + two_).out, now);
+}
+
 TEST_F(Compare, DamagedReportsGiveOneLineAndExitCode2) {
   std::vector<std::string> damaged = {"", "x", "[1]", "{\"solve\": 3}"};
   for (const char* key : {"inputs", "configuration", "metrics", "solve", "requirements"}) {
