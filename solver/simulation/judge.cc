@@ -13,7 +13,7 @@ namespace {
 
 // A root that is as far off its target as that of a figure that fell, in any direction (share of
 // the stature; kFallen of simulation.cc).
-constexpr double kStrayed = 0.35;
+constexpr double kTrackingLost = 0.35;
 // A tag is lost where its s GLI stays below half of what counts as tangled ...
 constexpr double kLostGli = 0.5 * kTangleThreshold;  // turns
 // ... from some frame to either end of the clip, for at least this long: at the ends a tangle may
@@ -50,7 +50,7 @@ void JudgeTags(const Scene& scene, SimulationResult* result) {
     if (!at_end && last + 1 < least) continue;
     const auto name = [&](int f, int n) { return scene.body[f].nodes[n].name; };
     const Tangle& t = held.tag.tangle;
-    Stop(result, SimulationStatus::kLostHold,
+    Stop(result, SimulationStatus::kLostTangle,
          "it lost the tag a (" + name(0, t.a.from) + ", " + name(0, t.a.to) + ") x b (" +
              name(1, t.b.from) + ", " + name(1, t.b.to) + ") for good " +
              (at_end ? "at frame " + std::to_string(first)
@@ -79,11 +79,11 @@ void JudgePassThroughs(const Scene& scene, SimulationResult* result) {
 
 // A figure that stumbled and is dragged along shows nothing of its motion: no start for a solve.
 void JudgeStray(const Stray& stray, SimulationResult* result) {
-  if (stray.share < kStrayed) return;
+  if (stray.share < kTrackingLost) return;
   char text[100];
   std::snprintf(text, sizeof text, "%s strayed %.2f m from its way at frame %d",
                 stray.figure == 0 ? "a" : "b", stray.distance_m, stray.frame);
-  Stop(result, SimulationStatus::kStrayed, text, stray.frame);
+  Stop(result, SimulationStatus::kTrackingLost, text, stray.frame);
 }
 
 }  // namespace

@@ -16,7 +16,14 @@
 
 namespace retarget::solver {
 
-enum class SimulationStatus { kCompleted, kDiverged, kFell, kLostHold, kPassedThrough, kStrayed };
+enum class SimulationStatus {
+  kCompleted,
+  kDiverged,
+  kFell,
+  kLostTangle,
+  kPassedThrough,
+  kTrackingLost
+};
 const char* NameOf(SimulationStatus status);
 
 struct SimulationResult {

@@ -189,14 +189,14 @@ TEST(Simulation, AFigureThatCannotFollowItsMotionHasStrayed) {
   Scene scene = StandingApart(60);
   for (int t = 0; t < 60; ++t) scene.source[1].frames[t].root_position.z() += 0.04 * t;
   const SimulationResult result = Simulate(scene, {});
-  EXPECT_EQ(result.status, SimulationStatus::kStrayed) << result.message;
+  EXPECT_EQ(result.status, SimulationStatus::kTrackingLost) << result.message;
   EXPECT_EQ(result.frames_simulated, 60);
   EXPECT_NE(result.message.find("b strayed"), std::string::npos) << result.message;
   scene.contacts[1].clear();
   EXPECT_EQ(Simulate(scene, {}).status, SimulationStatus::kCompleted);
 }
 
-TEST(Simulation, ALostHoldIsSaid) {
+TEST(Simulation, ALostTangleIsSaid) {
   Scene scene = SmallScene(45, 0.05);
   ASSERT_FALSE(scene.tangles.empty());
   scene.holds.clear();
@@ -206,7 +206,7 @@ TEST(Simulation, ALostHoldIsSaid) {
   SimulationSettings settings;
   settings.tangle_stiffness = 0;
   const SimulationResult result = Simulate(scene, settings);
-  EXPECT_EQ(result.status, SimulationStatus::kLostHold) << result.message;
+  EXPECT_EQ(result.status, SimulationStatus::kLostTangle) << result.message;
   EXPECT_NE(result.message.find("it lost the tag a ("), std::string::npos) << result.message;
 }
 
