@@ -24,7 +24,7 @@ std::string WithNumber(const std::string& text, double value) {
 }
 
 void WarnOfWeakTags(RetargetResult* result) {
-  for (const HeldTangle& held : result->scene.tangles) {
+  for (const TangleTarget& held : result->scene.tangles) {
     const std::string who = Describe(result->scene, held.tag.tangle);
     if (IsWeak(held.tag)) {
       result->warnings.push_back(WithNumber("tag " + who + " is weak in the template: |GLI| ",
@@ -115,7 +115,7 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
   scene.body = input.body;
   scene.template_frame = input.template_frame;
   scene.posture = FitTemplate(input.posture, input.body, result.tangles.tags, settings);
-  scene.tangles = HoldTangles(result.tangles.tags, scene.posture, settings.tangle.margin);
+  scene.tangles = TangleTargets(result.tangles.tags, scene.posture, settings.tangle.margin);
   scene.holds = scene.posture.holds;
   scene.root = scene.posture.root;
   scene.stiff = input.stiff;

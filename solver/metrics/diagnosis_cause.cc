@@ -43,7 +43,7 @@ class CauseFinder {
  private:
   void Set(Cause cause) { conflict_.cause = cause; }
   double Weight(const std::string& term) const { return WeightIn(settings_, term); }
-  const HeldTangle& Tag() const { return c_.subject.tangles[static_cast<size_t>(check_.item)]; }
+  const TangleTarget& Tag() const { return c_.subject.tangles[static_cast<size_t>(check_.item)]; }
 
   void SuggestDefault(const std::string& term) {
     conflict_.suggestion = {"weights." + term, UsualWeight(term), Weight(term), true};

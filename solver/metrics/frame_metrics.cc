@@ -50,7 +50,7 @@ Overlap DeepestWithin(const Body& body, const std::vector<std::pair<int, int>>& 
 class InstantMeter {
  public:
   explicit InstantMeter(const MeasureSubject& subject) : subject_(subject) {
-    for (const HeldTangle& held : subject.tangles) {
+    for (const TangleTarget& held : subject.tangles) {
       paths_.push_back({NodesOn(subject.body[0], held.tag.tangle.a),
                         NodesOn(subject.body[1], held.tag.tangle.b)});
     }

@@ -131,7 +131,7 @@ class Measurement {
   void MeasureEdit(int f) {
     const Body& body = subject_.body[f];
     std::vector<char> tagged(body.nodes.size(), 0);
-    for (const HeldTangle& held : subject_.tangles) {
+    for (const TangleTarget& held : subject_.tangles) {
       const Path& path = f == 0 ? held.tag.tangle.a : held.tag.tangle.b;
       for (const int n : NodesOn(body, path)) tagged[n] = 1;
     }

@@ -36,7 +36,7 @@ std::vector<NodePositions> NodesOf(const MotionView& motion);
 struct MeasureSubject {
   std::array<Body, 2> body;                   // tree and radii
   std::array<std::vector<double>, 2> length;  // of the segment that ends at each node (m)
-  std::vector<HeldTangle> tangles;
+  std::vector<TangleTarget> tangles;
   std::vector<Hold> holds;
   std::array<std::vector<Contact>, 2> contacts;
 };

@@ -30,7 +30,7 @@ struct PoseTask {
   std::vector<NodeTarget> drags, pins;
   std::vector<NodeRay> drag_rays, pin_rays;
   std::vector<Hold> holds;
-  std::vector<HeldTangle> tangles;
+  std::vector<TangleTarget> tangles;
 };
 
 struct PoseSettings {

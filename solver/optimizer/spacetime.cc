@@ -17,7 +17,7 @@ void MeasureIteration(const Problem& problem, const Unknowns& unknowns, int thre
   std::vector<double> gli(n, 1e9), depth(n, 0), hold(n, 0);
   std::vector<Frame> frames(static_cast<size_t>(threads));
   std::vector<std::array<std::vector<int>, 2>> paths;
-  for (const HeldTangle& held : scene.tangles) {
+  for (const TangleTarget& held : scene.tangles) {
     paths.push_back(
         {NodesOn(scene.body[0], held.tag.tangle.a), NodesOn(scene.body[1], held.tag.tangle.b)});
   }

@@ -13,7 +13,7 @@
 namespace retarget::solver {
 
 // A tag with the value that its residual aims for (turns, of s GLI).
-struct HeldTangle {
+struct TangleTarget {
   Tag tag;
   double sign = 1;
   double target = 0;
@@ -24,7 +24,7 @@ struct Scene {
   std::array<Clip, 2> source;  // the placed clips; equal numbers of frames
   TemplatePosture posture;     // fitted to these two bodies
   int template_frame = 0;      // the frame that is laid into the template
-  std::vector<HeldTangle> tangles;
+  std::vector<TangleTarget> tangles;
   std::vector<Hold> holds;
   std::array<RootLeader, 2> root = {RootLeader::kOwnClip, RootLeader::kOwnClip};
   std::array<std::vector<Contact>, 2> contacts;

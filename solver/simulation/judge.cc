@@ -35,7 +35,7 @@ std::array<PosedBody, 2> PosedAt(const Scene& scene, const SimulationResult& res
 // Lost for good: gone from some frame to either end of the clip.
 void JudgeTags(const Scene& scene, SimulationResult* result) {
   const int least = static_cast<int>(std::ceil(kLostTime * scene.fps()));
-  for (const HeldTangle& held : scene.tangles) {
+  for (const TangleTarget& held : scene.tangles) {
     const auto lost_at = [&](int t) {
       const std::array<PosedBody, 2> posed = PosedAt(scene, *result, t);
       return held.sign *

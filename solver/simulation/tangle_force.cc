@@ -19,7 +19,7 @@ TangleForce::TangleForce(const Scene& scene, const SimulationSettings& settings)
                                           PoseBody(scene.body[1], scene.posture.pose[1])};
   const MatX gli = SegmentGliTable(scene.body[0], posed[0].node, scene.body[1], posed[1].node);
   MatX share = MatX::Zero(gli.rows(), gli.cols());  // two tags with one crossing pull once
-  for (const HeldTangle& held : scene.tangles) {
+  for (const TangleTarget& held : scene.tangles) {
     const Eigen::VectorXi p = SignsOf(scene.body[0], held.tag.tangle.a);
     const Eigen::VectorXi q = SignsOf(scene.body[1], held.tag.tangle.b);
     MatX crossing = MatX::Zero(gli.rows(), gli.cols());
@@ -65,7 +65,7 @@ void TangleForce::ApplyElastic(const std::array<PosedBody, 2>& posed, PhysicsWor
 }
 
 void TangleForce::ApplyGli(const std::array<PosedBody, 2>& posed, PhysicsWorld* world) const {
-  for (const HeldTangle& held : scene_->tangles) {
+  for (const TangleTarget& held : scene_->tangles) {
     const std::vector<int> nodes_a = NodesOn(scene_->body[0], held.tag.tangle.a);
     const std::vector<int> nodes_b = NodesOn(scene_->body[1], held.tag.tangle.b);
     const PathGli gli =

@@ -82,10 +82,10 @@ TemplateTangles FindTemplateTangles(const TemplatePosture& posture,
   return out;
 }
 
-std::vector<HeldTangle> HoldTangles(const std::vector<Tag>& tags, const TemplatePosture& posture,
-                                    double margin) {
+std::vector<TangleTarget> TangleTargets(const std::vector<Tag>& tags,
+                                        const TemplatePosture& posture, double margin) {
   const std::array<PosedBody, 2> posed = PosedFigures(posture);
-  std::vector<HeldTangle> held;
+  std::vector<TangleTarget> held;
   for (const Tag& tag : tags) {
     const double sign = tag.tangle.gli < 0 ? -1 : 1;
     const double here = sign * GliOf(posture, posed, tag.tangle.a, tag.tangle.b);
@@ -107,7 +107,7 @@ TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Bod
       std::max(StepsBetween(posture.body[0], body[0]), StepsBetween(posture.body[1], body[1]));
   Scene scene;
   // The value that counts is the template's own: on its bodies, not on these.
-  scene.tangles = HoldTangles(tags, posture, settings.tangle.margin);
+  scene.tangles = TangleTargets(tags, posture, settings.tangle.margin);
   TemplatePosture fitted = posture;
   TemplatePosture last = posture;
   for (int k = 1; k <= steps; ++k) {

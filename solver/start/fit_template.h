@@ -27,7 +27,7 @@ TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Bod
                             const std::vector<Tag>& tags, const Settings& settings);
 
 // What the tags aim for: half a turn and the margin, never above the posture's own value.
-std::vector<HeldTangle> HoldTangles(const std::vector<Tag>& tags, const TemplatePosture& posture,
-                                    double margin);
+std::vector<TangleTarget> TangleTargets(const std::vector<Tag>& tags,
+                                        const TemplatePosture& posture, double margin);
 
 }  // namespace retarget::solver

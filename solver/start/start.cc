@@ -16,7 +16,7 @@ void MarkChain(const Body& body, int node, std::vector<char>* marked) {
 std::vector<char> InvolvedLinks(const Scene& scene, int figure) {
   const Body& body = scene.body[figure];
   std::vector<char> marked(body.links.size(), 0);
-  for (const HeldTangle& held : scene.tangles) {
+  for (const TangleTarget& held : scene.tangles) {
     const Path& path = figure == 0 ? held.tag.tangle.a : held.tag.tangle.b;
     for (const int n : NodesOn(body, path)) MarkChain(body, n, &marked);
   }

@@ -89,7 +89,7 @@ Scene GrownScene(int frames, int fingers) {
                          {scene.body[f].FindNode("right_big_toes"), 1, frames - 2}};
   }
   const TemplateTangles tangles = FindTemplateTangles(scene.posture, {});
-  scene.tangles = HoldTangles(tangles.tags, scene.posture, 0.05);
+  scene.tangles = TangleTargets(tangles.tags, scene.posture, 0.05);
   const PosedBody posed = PoseBody(scene.body[0], scene.posture.pose[0]);
   Hold tips;  // a fingertip keeps its distance from a knuckle of the other hand, give or take a bit
   tips.from = {0, scene.body[0].FindNode("left_index_2"), Vec3::Zero()};

@@ -87,7 +87,7 @@ inline Scene SmallScene(int frames, double size_rad, bool follow = false) {
   }
   if (follow) scene.root[0] = RootLeader::kPartner;
   const TemplateTangles tangles = FindTemplateTangles(scene.posture, {});
-  scene.tangles = HoldTangles(tangles.tags, scene.posture, 0.05);
+  scene.tangles = TangleTargets(tangles.tags, scene.posture, 0.05);
   // Holds that ask for a little more than the posture shows, so that there is something to solve.
   const std::array<PosedBody, 2> posed = {PoseBody(scene.body[0], scene.posture.pose[0]),
                                           PoseBody(scene.body[1], scene.posture.pose[1])};

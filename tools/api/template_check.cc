@@ -43,7 +43,7 @@ TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& sett
   check.tangles = solver::FindTemplateTangles(posture, settings.tangle);
   solver::Scene scene;
   scene.body = posture.body;
-  scene.tangles = solver::HoldTangles(check.tangles.tags, posture, settings.tangle.margin);
+  scene.tangles = solver::TangleTargets(check.tangles.tags, posture, settings.tangle.margin);
   scene.holds = posture.holds;
   for (int f = 0; f < 2; ++f) scene.source[f].frames = {posture.pose[f]};
   const solver::MeasureSubject subject = solver::SubjectOf(scene);

@@ -122,7 +122,7 @@ void TangleResidual8x8(benchmark::State& state) {
   solver::Scene scene;
   scene.body = TheHold().posture.body;
   for (int f = 0; f < 2; ++f) scene.source[f].frames = {TheHold().posture.pose[f]};
-  solver::HeldTangle held;
+  solver::TangleTarget held;
   held.tag.tangle = {HandToHand(scene.body[0]), HandToHand(scene.body[1]), 0};
   held.target = 10;  // out of reach, so that the hinge is always active
   scene.tangles = {held};

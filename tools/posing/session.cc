@@ -80,8 +80,8 @@ solver::PoseTask TaskOf(const PoseState& state, const TangleSettings& settings,
   if (state.options.tangles) {
     TemplatePosture posture = state.posture;
     posture.pose = before;
-    task.tangles = solver::HoldTangles(solver::FindTemplateTangles(posture, settings).tags, posture,
-                                       settings.margin);
+    task.tangles = solver::TangleTargets(solver::FindTemplateTangles(posture, settings).tags,
+                                         posture, settings.margin);
   }
   AddPins(state, &task);
   return task;

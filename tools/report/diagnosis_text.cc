@@ -120,7 +120,7 @@ class Sentence {
     return p.figure == kWorld ? "its place in the world"
                               : LimbName({p.figure, p.node}, subject_.body);
   }
-  const solver::HeldTangle& Tag() const {
+  const solver::TangleTarget& Tag() const {
     return subject_.tangles[static_cast<size_t>(check_.item)];
   }
   std::string Planted(const solver::PlantedFoot& foot) const {

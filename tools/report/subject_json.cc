@@ -77,7 +77,7 @@ Json SubjectJson(const solver::MeasureSubject& subject, const solver::Metrics& r
   Json out;
   out["tangles"] = Json::array();
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
-    const solver::HeldTangle& held = subject.tangles[k];
+    const solver::TangleTarget& held = subject.tangles[k];
     out["tangles"].push_back(
         {{"a", PathJson(subject.body[0], held.tag.tangle.a)},
          {"b", PathJson(subject.body[1], held.tag.tangle.b)},
@@ -139,7 +139,7 @@ solver::MeasureSubject SubjectFromJson(const Json& report, const std::string& pa
       return Path{NodeNamed(subject.body[f], j.at(0)), NodeNamed(subject.body[f], j.at(1))};
     };
     for (const Json& t : report.at("tangles")) {
-      solver::HeldTangle held;
+      solver::TangleTarget held;
       held.tag.tangle = {path_of(0, t.at("a")), path_of(1, t.at("b")), t.at("template_gli")};
       held.sign = held.tag.tangle.gli < 0 ? -1 : 1;
       held.target = t.at("target");

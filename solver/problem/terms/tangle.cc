@@ -6,7 +6,7 @@
 namespace retarget::solver {
 
 TangleTerm::TangleTerm(const Scene& scene) {
-  for (const HeldTangle& held : scene.tangles) {
+  for (const TangleTarget& held : scene.tangles) {
     items_.push_back({NodesOn(scene.body[0], held.tag.tangle.a),
                       NodesOn(scene.body[1], held.tag.tangle.b), held.sign, held.target});
   }

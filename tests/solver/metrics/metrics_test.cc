@@ -321,7 +321,7 @@ TEST_F(SweptArms, ThroughTheElbowIsSeenAsWell) {
 TEST_F(SweptArms, TheTagOfACrossingFlipsItsSign) {
   // Crossing forearms as the only tag: |GLI| under one half always, and the sign turns in the
   // middle.
-  HeldTangle held;
+  TangleTarget held;
   held.tag.tangle.a = {Node(0, "left_elbow"), Node(0, "left_wrist")};
   held.tag.tangle.b = {Node(1, "left_elbow"), Node(1, "left_wrist")};
   subject_.tangles = {held};
@@ -342,7 +342,7 @@ TEST_F(MeasureTest, TanglesAreCountedFrameByFrame) {
   const TemplatePosture hug = RoughHug(subject_.body[0], subject_.body[1]);
   const TemplateTangles found = FindTemplateTangles(hug, {});
   ASSERT_FALSE(found.tags.empty());
-  subject_.tangles = HoldTangles({found.tags[0]}, hug, 0.05);
+  subject_.tangles = TangleTargets({found.tags[0]}, hug, 0.05);
   for (int f = 0; f < 2; ++f) {
     Each(f, [&](int t, Pose* pose) {
       *pose = hug.pose[f];

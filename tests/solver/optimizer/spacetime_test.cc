@@ -108,7 +108,7 @@ Scene Mirrored(const Scene& scene) {
     out.posture.pose[f] = mirror(scene.posture.pose[f]);
     for (Contact& contact : out.contacts[f]) contact.node = mirror.node[contact.node];
   }
-  for (HeldTangle& held : out.tangles) {
+  for (TangleTarget& held : out.tangles) {
     const auto path = [](const Mirror& mirror, const Path& p) {
       const int u = mirror.node[p.from], v = mirror.node[p.to];
       return Path{std::min(u, v), std::max(u, v)};
@@ -163,7 +163,7 @@ TEST(Spacetime, ExchangingTheFiguresExchangesTheResult) {
   std::swap(exchanged.source[0], exchanged.source[1]);
   std::swap(exchanged.contacts[0], exchanged.contacts[1]);
   std::swap(exchanged.posture.pose[0], exchanged.posture.pose[1]);
-  for (HeldTangle& held : exchanged.tangles) std::swap(held.tag.tangle.a, held.tag.tangle.b);
+  for (TangleTarget& held : exchanged.tangles) std::swap(held.tag.tangle.a, held.tag.tangle.b);
   for (Hold& hold : exchanged.holds) {
     for (HoldPoint* point : {&hold.from, &hold.to}) {
       if (point->figure != kWorld) point->figure = 1 - point->figure;

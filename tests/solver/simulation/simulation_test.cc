@@ -238,7 +238,7 @@ TEST(TangleForce, PullsEquallyAndOppositely) {
   for (const TangleForceKind kind : {TangleForceKind::kElastic, TangleForceKind::kGli}) {
     SimulationSettings settings;
     settings.tangle_force = kind;
-    for (HeldTangle& held : scene.tangles) held.target = 2;  // never reached
+    for (TangleTarget& held : scene.tangles) held.target = 2;  // never reached
     PhysicsOptions options;
     options.gravity = 0;
     options.time_step = 2.5e-4;
@@ -253,7 +253,7 @@ TEST(TangleForce, PullsEquallyAndOppositely) {
     const TangleForce force(scene, settings);
     const auto gli = [&] {
       double sum = 0;
-      for (const HeldTangle& held : scene.tangles) {
+      for (const TangleTarget& held : scene.tangles) {
         sum += held.sign *
                PolylineGli(PointsOn(posed[0].node, NodesOn(scene.body[0], held.tag.tangle.a)),
                            PointsOn(posed[1].node, NodesOn(scene.body[1], held.tag.tangle.b)));

@@ -182,7 +182,7 @@ TEST(FitTemplate, TagsAimNoHigherThanTheTemplate) {
   const TemplatePosture posture = HeldHug();
   const TemplateTangles tangles = FindTemplateTangles(posture, {});
   for (const double margin : {0.0, 0.05, 0.5}) {
-    const auto held = HoldTangles(tangles.tags, posture, margin);
+    const auto held = TangleTargets(tangles.tags, posture, margin);
     ASSERT_EQ(held.size(), tangles.tags.size());
     for (size_t k = 0; k < held.size(); ++k) {
       const double here = SignedGli(posture, tangles.tags[k]);
