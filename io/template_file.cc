@@ -49,14 +49,14 @@ void ReadAllSupports(const std::optional<Value>& value, const std::array<PosedBo
   }
 }
 
-std::array<RootLeader, 2> ReadRootLeaders(const Value& value) {
+std::array<RootReference, 2> ReadRootLeaders(const Value& value) {
   value.CheckKeys({"a", "b"});
-  std::array<RootLeader, 2> leaders = {RootLeader::kOwnClip, RootLeader::kOwnClip};
+  std::array<RootReference, 2> leaders = {RootReference::kOwnClip, RootReference::kOwnClip};
   for (const Value& own : value.Items()) {
     const bool partner = own.Name("leader", {"world", "own", "partner"}) == 2;
-    leaders[own.key() == "a" ? 0 : 1] = partner ? RootLeader::kPartner : RootLeader::kOwnClip;
+    leaders[own.key() == "a" ? 0 : 1] = partner ? RootReference::kPartner : RootReference::kOwnClip;
   }
-  if (leaders[0] == RootLeader::kPartner && leaders[1] == RootLeader::kPartner) {
+  if (leaders[0] == RootReference::kPartner && leaders[1] == RootReference::kPartner) {
     value.Refuse("expected one figure that follows its own clip, found partner twice");
   }
   return leaders;

@@ -192,7 +192,7 @@ std::string HeadText(const TemplatePosture& posture) {
 
 std::string FormatTemplate(const TemplatePosture& posture) {
   const auto leader = [&](int f) {
-    return posture.root[f] == RootLeader::kPartner ? "partner" : "world";
+    return posture.root[f] == RootReference::kPartner ? "partner" : "world";
   };
   std::string out = HeadText(posture);
   for (int f = 0; f < 2; ++f) {

@@ -34,7 +34,7 @@ struct Hold {
 };
 
 // Whose motion a figure's root follows.
-enum class RootLeader { kOwnClip, kPartner };
+enum class RootReference { kOwnClip, kPartner };
 
 // A tangle that the user listed herself.
 struct TangleRequest {
@@ -60,7 +60,7 @@ struct TemplatePosture {
   std::array<Pose, 2> pose;
   std::vector<Hold> holds;
   std::array<std::vector<int>, 2> supports;  // nodes that may be planted
-  std::array<RootLeader, 2> root = {RootLeader::kOwnClip, RootLeader::kOwnClip};
+  std::array<RootReference, 2> root = {RootReference::kOwnClip, RootReference::kOwnClip};
   std::vector<TangleRequest> tangles;  // empty: find and reduce
   std::optional<TemplatePhoto> photo;
   std::optional<TemplateCamera> camera;

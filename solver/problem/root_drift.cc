@@ -80,7 +80,8 @@ std::array<std::vector<RootShift>, 2> MeetingShifts(const Scene& scene) {
   const size_t frames = static_cast<size_t>(scene.num_frames());
   std::array<std::vector<RootShift>, 2> shifts;
   for (auto& shift : shifts) shift.assign(frames, {});
-  const bool own = scene.root[0] == RootLeader::kOwnClip && scene.root[1] == RootLeader::kOwnClip;
+  const bool own =
+      scene.root[0] == RootReference::kOwnClip && scene.root[1] == RootReference::kOwnClip;
   if (!own || scene.tangles.empty() || frames < 2) return shifts;
   const double a = TravelOf(scene.source[0]), b = TravelOf(scene.source[1]);
   const double share = a + b > 0 ? a / (a + b) : 0.5;

@@ -4,7 +4,7 @@ namespace retarget::solver {
 
 std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure) {
   std::vector<RelativeRoot> targets;
-  if (scene.root[figure] == RootLeader::kOwnClip) return targets;
+  if (scene.root[figure] == RootReference::kOwnClip) return targets;
   const Pose& self = scene.posture.pose[figure];
   const Pose& partner = scene.posture.pose[1 - figure];
   const Pose& start = scene.source[figure].frames[scene.template_frame];

@@ -26,7 +26,7 @@ struct Scene {
   int template_frame = 0;      // the frame that is laid into the template
   std::vector<TangleTarget> tangles;
   std::vector<Hold> holds;
-  std::array<RootLeader, 2> root = {RootLeader::kOwnClip, RootLeader::kOwnClip};
+  std::array<RootReference, 2> root = {RootReference::kOwnClip, RootReference::kOwnClip};
   std::array<std::vector<Contact>, 2> contacts;
   // Turns that the figures' own rigs cannot make, per frame; empty where they can make all.
   std::array<std::vector<std::vector<StiffTurn>>, 2> stiff;

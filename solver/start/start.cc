@@ -44,8 +44,8 @@ RigidMotion CarriedBy(const Scene& scene, int figure, int t) {
 }
 
 RigidMotion MotionOfPair(const Scene& scene, int t) {
-  if (scene.root[0] == RootLeader::kPartner) return CarriedBy(scene, 1, t);
-  if (scene.root[1] == RootLeader::kPartner) return CarriedBy(scene, 0, t);
+  if (scene.root[0] == RootReference::kPartner) return CarriedBy(scene, 1, t);
+  if (scene.root[1] == RootReference::kPartner) return CarriedBy(scene, 0, t);
   const RigidMotion a = CarriedBy(scene, 0, t), b = CarriedBy(scene, 1, t);
   const Quat turn = a.rotation.slerp(0.5, b.rotation);
   // Half way between where the two motions take the middle of the figures.

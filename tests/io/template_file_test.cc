@@ -149,7 +149,7 @@ TEST(TemplateFileTest, ReadsTheExample) {
                   ExpSo3(Vec3(0, -75, -30) * kDegree)),
             1e-12);
   EXPECT_LT(Angle(p.pose[0].rotation[p.body[0].FindLink("waist")], Quat::Identity()), 1e-12);
-  EXPECT_EQ(p.root, (std::array{RootLeader::kOwnClip, RootLeader::kPartner}));
+  EXPECT_EQ(p.root, (std::array{RootReference::kOwnClip, RootReference::kPartner}));
   ASSERT_EQ(p.tangles.size(), 2u);
   EXPECT_EQ(p.tangles[0].a, (Path{8, 12}));  // written the other way round
   EXPECT_EQ(p.tangles[0].b, (Path{11, 18}));
@@ -216,7 +216,7 @@ TEST(TemplateFileTest, OptionalKeysMayBeLeftOut) {
       "b: {stature: 1.8, root: {position: [0, 1, 1]}}\n",
       "t.yaml");
   EXPECT_TRUE(p.holds.empty() && p.tangles.empty() && p.tags.empty() && !p.photo && !p.camera);
-  EXPECT_EQ(p.root, (std::array{RootLeader::kOwnClip, RootLeader::kOwnClip}));
+  EXPECT_EQ(p.root, (std::array{RootReference::kOwnClip, RootReference::kOwnClip}));
   ExpectSamePosture(ParseTemplate(FormatTemplate(p), "again.yaml"), p);
 }
 

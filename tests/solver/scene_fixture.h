@@ -85,7 +85,7 @@ inline Scene SmallScene(int frames, double size_rad, bool follow = false) {
               toe = scene.body[f].FindNode("right_toe");
     scene.contacts[f] = {{ankle, 0, frames / 2}, {toe, frames / 3, frames - 1}};
   }
-  if (follow) scene.root[0] = RootLeader::kPartner;
+  if (follow) scene.root[0] = RootReference::kPartner;
   const TemplateTangles tangles = FindTemplateTangles(scene.posture, {});
   scene.tangles = TangleTargets(tangles.tags, scene.posture, 0.05);
   // Holds that ask for a little more than the posture shows, so that there is something to solve.

@@ -59,9 +59,10 @@ void Apply(const SetSupports& op, TemplatePosture* posture) {
   posture->supports[op.figure] = op.nodes;
 }
 
-void Apply(const SetRootLeader& op, TemplatePosture* posture) {
+void Apply(const SetRootReference& op, TemplatePosture* posture) {
   CheckFigure(op.figure);
-  if (op.leader == RootLeader::kPartner && posture->root[1 - op.figure] == RootLeader::kPartner) {
+  if (op.leader == RootReference::kPartner &&
+      posture->root[1 - op.figure] == RootReference::kPartner) {
     throw InputError("root: at most one figure may follow its partner");
   }
   posture->root[op.figure] = op.leader;

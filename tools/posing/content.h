@@ -10,7 +10,7 @@ void Apply(const AddHold& op, TemplatePosture* posture);
 void Apply(const EditHold& op, TemplatePosture* posture);
 void Apply(const RemoveHold& op, TemplatePosture* posture);
 void Apply(const SetSupports& op, TemplatePosture* posture);
-void Apply(const SetRootLeader& op, TemplatePosture* posture);
+void Apply(const SetRootReference& op, TemplatePosture* posture);
 void Apply(const SetTangles& op, TemplatePosture* posture);
 void Apply(const SetName& op, TemplatePosture* posture);
 void Apply(const SetDescription& op, TemplatePosture* posture);

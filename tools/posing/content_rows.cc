@@ -131,7 +131,8 @@ Operation EditedHold(const Parser& p) {
 Operation Leader(const Parser& p) {
   const auto [figure, leader] = p.Pair();
   const bool partner = Parser::Named(leader, "leader", {"world", "partner"}) == 1;
-  return SetRootLeader{p.Figure(figure), partner ? RootLeader::kPartner : RootLeader::kOwnClip};
+  return SetRootReference{p.Figure(figure),
+                          partner ? RootReference::kPartner : RootReference::kOwnClip};
 }
 
 }  // namespace
@@ -150,12 +151,13 @@ std::array<OperationRow, 12> ContentRows() {
             [](const Parser& p) -> Operation { return RemoveHold{p.HoldIndex(p.value())}; }}}),
       Row<SetSupports>("set_supports", "supports", {Figure<SetSupports>(), SupportNodes()},
                        {{"supports", "F=NODE,NODE", "nodes that may be planted", Supports}}),
-      Row<SetRootLeader>("set_root_leader", "leader",
-                         {Figure<SetRootLeader>(),
-                          Choice<SetRootLeader, RootLeader>("leader", &SetRootLeader::leader,
-                                                            {{"world", RootLeader::kOwnClip},
-                                                             {"partner", RootLeader::kPartner}})},
-                         {{"leader", "F=world|partner", "whose motion a root follows", Leader}}),
+      Row<SetRootReference>(
+          "set_root_leader", "leader",
+          {Figure<SetRootReference>(),
+           Choice<SetRootReference, RootReference>(
+               "leader", &SetRootReference::leader,
+               {{"world", RootReference::kOwnClip}, {"partner", RootReference::kPartner}})},
+          {{"leader", "F=world|partner", "whose motion a root follows", Leader}}),
       Row<SetTangles>("set_tangles", "tangles", {Tangles()},
                       {{"tangles", "N..N:N..N,...|found",
                         "tangles to keep, path of a:path of b; or those found", KeptTangles}}),

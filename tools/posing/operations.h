@@ -133,9 +133,9 @@ struct SetSupports {
   int figure = 0;
   std::vector<int> nodes;
 };
-struct SetRootLeader {
+struct SetRootReference {
   int figure = 0;
-  RootLeader leader = RootLeader::kOwnClip;
+  RootReference leader = RootReference::kOwnClip;
 };
 // The tangles to keep; empty: those that are found.
 struct SetTangles {
@@ -165,8 +165,8 @@ struct SetPosture {
 using Operation =
     std::variant<Drag, DragRay, Settle, Pin, Unpin, SetOption, MoveFigure, TurnFigure, RotateJoint,
                  SetJoint, SetRoot, SetStature, Mirror, SwapFigures, CopySide, ResetJoint,
-                 ResetFigure, AddHold, EditHold, RemoveHold, SetSupports, SetRootLeader, SetTangles,
-                 SetName, SetDescription, SetTags, SetPhoto, SetCamera, SetPosture>;
+                 ResetFigure, AddHold, EditHold, RemoveHold, SetSupports, SetRootReference,
+                 SetTangles, SetName, SetDescription, SetTags, SetPhoto, SetCamera, SetPosture>;
 
 enum class HistoryStep { kUndo, kRedo };
 using PoseStep = std::variant<Operation, HistoryStep>;

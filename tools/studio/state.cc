@@ -133,7 +133,7 @@ report::Json PostureStateJson(const posing::PoseSession& session) {
   const posing::PoseState& state = session.state();
   const TemplatePosture& posture = state.posture;
   const auto leader = [&](int f) {
-    return posture.root[f] == RootLeader::kPartner ? "partner" : "world";
+    return posture.root[f] == RootReference::kPartner ? "partner" : "world";
   };
   report::Json out = {{"can_undo", session.can_undo()}, {"can_redo", session.can_redo()}};
   if (session.can_undo()) out["undo_text"] = session.undo_text();

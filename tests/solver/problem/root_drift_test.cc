@@ -97,9 +97,9 @@ TEST(Meeting, SwayAndPaceAreNotDrift) {
 
 TEST(Meeting, NothingIsSharedWithoutATieOrByAFollower) {
   Scene scene = Walking(1.0, 1.5);
-  scene.root[0] = RootLeader::kPartner;
+  scene.root[0] = RootReference::kPartner;
   for (const auto& shifts : MeetingShifts(scene)) EXPECT_EQ(LargestOf(shifts), 0);
-  scene.root[0] = RootLeader::kOwnClip;
+  scene.root[0] = RootReference::kOwnClip;
   scene.tangles.clear();
   for (const auto& shifts : MeetingShifts(scene)) EXPECT_EQ(LargestOf(shifts), 0);
 }

@@ -265,7 +265,7 @@ double TrackingCost(const Scene& scene, const Settings& settings,
         cost += 0.5 * std::pow(settings.weights.pose_tracking * share * turn, 2);
       }
       Eigen::Isometry3d target = RootOf(source);
-      if (scene.root[f] == RootLeader::kPartner) {
+      if (scene.root[f] == RootReference::kPartner) {
         target = RootOf(moved[1 - f].frames[t]) * RootOf(scene.posture.pose[1 - f]).inverse() *
                  RootOf(scene.posture.pose[f]) *
                  RootOf(scene.source[f].frames[scene.template_frame]).inverse() * RootOf(source);

@@ -291,8 +291,8 @@ TEST(PoseSession, InvalidOperationsChangeNothing) {
     EXPECT_EQ(Exactly(session.state()), before) << operation.index();
     EXPECT_FALSE(session.can_undo());
   }
-  session.Apply(SetRootLeader{0, RootLeader::kPartner});
-  EXPECT_THROW(session.Apply(SetRootLeader{1, RootLeader::kPartner}), InputError);
+  session.Apply(SetRootReference{0, RootReference::kPartner});
+  EXPECT_THROW(session.Apply(SetRootReference{1, RootReference::kPartner}), InputError);
 }
 
 TEST(PoseSession, OverlapsHaveTheirDepthAndPlace) {

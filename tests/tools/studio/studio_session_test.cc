@@ -104,7 +104,7 @@ TEST(StudioSession, EveryOperationIsThatOfTheCore) {
       {{{"op", "set_supports"}, {"figure", "b"}, {"nodes", {"left_toe"}}},
        posing::SetSupports{1, {toe}}},
       {{{"op", "set_root_leader"}, {"figure", "b"}, {"leader", "partner"}},
-       posing::SetRootLeader{1, RootLeader::kPartner}},
+       posing::SetRootReference{1, RootReference::kPartner}},
       {{{"op", "set_tangles"},
         {"tangles", {{{"a", {"left_hand", "root"}}, {"b", {"root", "head_top"}}}}}},
        posing::SetTangles{{{{0, hand}, {0, head}}}}},
