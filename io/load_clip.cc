@@ -139,14 +139,14 @@ Clip LoadedClip::Resampled(double fps, int first, int last) const {
   return clip;
 }
 
-std::vector<std::vector<StiffTurn>> LoadedClip::StiffTurns(double fps, int first, int last) const {
-  std::vector<std::vector<StiffTurn>> stiff;
+std::vector<std::vector<LockedAxis>> LoadedClip::LockedAxes(double fps, int first, int last) const {
+  std::vector<std::vector<LockedAxis>> locked_axes;
   bool any = false;
   for (int k = first; k < last; ++k) {
-    stiff.push_back(binding->StiffTurnsOf(SampleRig(file.motion, options.start + k / fps)));
-    any = any || !stiff.back().empty();
+    locked_axes.push_back(binding->LockedAxesOf(SampleRig(file.motion, options.start + k / fps)));
+    any = any || !locked_axes.back().empty();
   }
-  return any ? stiff : std::vector<std::vector<StiffTurn>>();
+  return any ? locked_axes : std::vector<std::vector<LockedAxis>>();
 }
 
 std::string MapOfClip(const ClipOptions& options) {

@@ -30,7 +30,7 @@ struct LoadedClip {
   // Poses at start + k / fps for output frames k in [first, last).
   Clip Resampled(double fps, int first, int last) const;
   // The same frames: turns that the rig cannot make; empty where it can make all.
-  std::vector<std::vector<StiffTurn>> StiffTurns(double fps, int first, int last) const;
+  std::vector<std::vector<LockedAxis>> LockedAxes(double fps, int first, int last) const;
 };
 
 // Reads, recognises and binds; where the options name a character, its body takes over the motion:

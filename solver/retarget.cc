@@ -118,7 +118,7 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
   scene.tangles = TangleTargets(result.tangles.tags, scene.posture, settings.tangle.margin);
   scene.holds = scene.posture.holds;
   scene.root = scene.posture.root;
-  scene.stiff = input.stiff;
+  scene.locked_axes = input.locked_axes;
   for (int f = 0; f < 2; ++f) {
     scene.contacts[f] =
         DetectContacts(input.body[f], input.clip[f], scene.posture.supports[f], settings.contact);

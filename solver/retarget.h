@@ -20,7 +20,7 @@ struct RetargetInput {
   TemplatePosture posture;
   int template_frame = 0;  // laid into the template
   // Turns that the clips' own rigs cannot make, per frame; empty where they can make all.
-  std::array<std::vector<std::vector<StiffTurn>>, 2> stiff = {};
+  std::array<std::vector<std::vector<LockedAxis>>, 2> locked_axes = {};
 };
 
 // Which initial guess the solve took (solve.start), and why.

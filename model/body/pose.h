@@ -32,7 +32,7 @@ void PoseBody(const Body& body, const Pose& pose, PosedBody* out);
 
 // A turn that a link cannot make on the rig that it is for: `direction` is unit, in the link's own
 // frame at some pose.
-struct StiffTurn {
+struct LockedAxis {
   int link = 0;
   Vec3 direction = Vec3::UnitX();
 };

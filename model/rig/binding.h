@@ -48,7 +48,7 @@ class RigBinding {
 
   // The turns that the rig's joints cannot make from a frame, by links that one bone alone follows:
   // a joint with one or two axes, as in Acclaim files, stays within them.
-  std::vector<StiffTurn> StiffTurnsOf(const RigFrame& frame) const;
+  std::vector<LockedAxis> LockedAxesOf(const RigFrame& frame) const;
 
   // World position (m, Y up) of every rig joint in a frame, for checks.
   std::vector<Vec3> JointPositions(const RigFrame& frame) const;

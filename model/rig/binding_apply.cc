@@ -118,8 +118,8 @@ RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
   return out;
 }
 
-std::vector<StiffTurn> RigBinding::StiffTurnsOf(const RigFrame& frame) const {
-  std::vector<StiffTurn> stiff;
+std::vector<LockedAxis> RigBinding::LockedAxesOf(const RigFrame& frame) const {
+  std::vector<LockedAxis> locked_axes;
   for (int l = 1; l < body_.num_links(); ++l) {
     const int bone = link_[l].bone;
     const bool shared =
@@ -136,10 +136,10 @@ std::vector<StiffTurn> RigBinding::StiffTurnsOf(const RigFrame& frame) const {
     for (size_t k = 0; k < free.size(); ++k) span.col(static_cast<long>(k)) = free[k];
     const Eigen::JacobiSVD<MatX> svd(span, Eigen::ComputeFullU);
     for (long k = static_cast<long>(free.size()); k < 3; ++k) {
-      stiff.push_back({l, link_[l].turn.conjugate() * Vec3(svd.matrixU().col(k))});
+      locked_axes.push_back({l, link_[l].turn.conjugate() * Vec3(svd.matrixU().col(k))});
     }
   }
-  return stiff;
+  return locked_axes;
 }
 
 }  // namespace retarget

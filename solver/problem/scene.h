@@ -29,7 +29,7 @@ struct Scene {
   std::array<RootReference, 2> root = {RootReference::kOwnClip, RootReference::kOwnClip};
   std::array<std::vector<Contact>, 2> contacts;
   // Turns that the figures' own rigs cannot make, per frame; empty where they can make all.
-  std::array<std::vector<std::vector<StiffTurn>>, 2> stiff;
+  std::array<std::vector<std::vector<LockedAxis>>, 2> locked_axes;
 
   int num_frames() const { return source[0].num_frames(); }
   double fps() const { return source[0].fps; }

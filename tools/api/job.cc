@@ -68,7 +68,8 @@ Job LoadJob(const Request& request) {
   for (int f = 0; f < 2; ++f) {
     job.input.body[f] = job.clip[f].body;
     job.input.clip[f] = job.clip[f].Resampled(request.fps, job.frames.first, job.frames.last);
-    job.input.stiff[f] = job.clip[f].StiffTurns(request.fps, job.frames.first, job.frames.last);
+    job.input.locked_axes[f] =
+        job.clip[f].LockedAxes(request.fps, job.frames.first, job.frames.last);
   }
   const double at = std::round(request.template_at * request.fps) - job.frames.first;
   if (at < 0 || at >= job.frames.last - job.frames.first) {

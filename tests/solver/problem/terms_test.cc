@@ -111,7 +111,7 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
     for (int f = 0; f < 2; ++f) {
       const int elbow = scene.body[f].FindLink("left_elbow");
       const int ankle = scene.body[f].FindLink("right_ankle");
-      scene.stiff[f].assign(
+      scene.locked_axes[f].assign(
           4, {{elbow, Vec3(0.6, 0.8, 0)}, {elbow, Vec3(0, 0, 1)}, {ankle, Vec3(1, 2, -2) / 3}});
     }
     const Problem problem(scene, {});

@@ -149,9 +149,9 @@ TEST(AnyRig, StiffTurnsAreThoseThatTheFileCannotHold) {
   options.option = "a";
   const io::LoadedClip clip = io::LoadClip(options);
   const RigFrame& captured = clip.file.motion.frames[100];
-  const std::vector<StiffTurn> stiff = clip.binding->StiffTurnsOf(captured);
+  const std::vector<LockedAxis> locked_axes = clip.binding->LockedAxesOf(captured);
   std::map<int, std::vector<Vec3>> by_link;
-  for (const StiffTurn& turn : stiff) by_link[turn.link].push_back(turn.direction);
+  for (const LockedAxis& turn : locked_axes) by_link[turn.link].push_back(turn.direction);
   const Body& body = clip.body;
   EXPECT_EQ(by_link[body.FindLink("left_elbow")].size(), 2u) << "it only bends";
   EXPECT_EQ(by_link[body.FindLink("left_ankle")].size(), 1u);
