@@ -33,10 +33,10 @@ class FrameCache : public ceres::EvaluationCallback {
         accepted_(frames_.size()) {}
 
   void PrepareForEvaluation(bool evaluate_jacobians, bool new_point) override {
-    if (!new_point && (!evaluate_jacobians || has_charts_)) return;
+    if (!new_point && (!evaluate_jacobians || has_dexp_)) return;
     ParallelFor(scene_.num_frames(), threads_,
                 [&](int t, int) { frames_[t].Set(scene_, unknowns_, t, evaluate_jacobians); });
-    has_charts_ = evaluate_jacobians;
+    has_dexp_ = evaluate_jacobians;
     if (evaluate_jacobians) {
       Accept();  // derivatives are asked for at accepted points only
     } else {
@@ -81,7 +81,7 @@ class FrameCache : public ceres::EvaluationCallback {
   int threads_;
   std::vector<Frame> frames_;
   std::vector<NodePositions> accepted_;
-  bool guarding_ = false, sound_ = true, has_charts_ = false;
+  bool guarding_ = false, sound_ = true, has_dexp_ = false;
   double last_step_m_ = 0;
 };
 

@@ -13,12 +13,12 @@ void Frame::Set(const Scene& s, const Unknowns& unknowns, int frame, bool deriva
     const double* xf = x + s.FirstCoordinate(f);
     EditedPose(s.source[f].frames[t], xf, &pose[f]);
     PoseBody(s.body[f], pose[f], &posed[f]);
-    chart[f].clear();
+    dexp[f].clear();
     if (!derivatives) continue;
-    chart[f].resize(s.body[f].links.size());
-    for (size_t l = 0; l < chart[f].size(); ++l) {
+    dexp[f].resize(s.body[f].links.size());
+    for (size_t l = 0; l < dexp[f].size(); ++l) {
       const Vec3 delta = Eigen::Map<const Vec3>(xf + 3 + 3 * l);
-      chart[f][l].noalias() = posed[f].rotation[l] * RightJacobian(delta);
+      dexp[f][l].noalias() = posed[f].rotation[l] * RightJacobian(delta);
     }
   }
 }

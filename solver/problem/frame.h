@@ -16,9 +16,9 @@ struct Frame {
   const MatX* anchor = nullptr;  // Unknowns::anchor
   std::array<Pose, 2> pose;
   std::array<PosedBody, 2> posed;
-  // chart[figure][link]: turns a change of the link's edit into the world's angular change,
-  // d omega_world = chart d delta, chart = R_link J_r(delta). Empty without derivatives.
-  std::array<std::vector<Mat3>, 2> chart;
+  // dexp[figure][link]: turns a change of the link's edit into the world's angular change,
+  // d omega_world = dexp d delta, dexp = R_link J_r(delta). Empty without derivatives.
+  std::array<std::vector<Mat3>, 2> dexp;
 
   const Body& body(int figure) const { return scene->body[figure]; }
   // Poses both figures; with `derivatives` also the charts.

@@ -36,7 +36,7 @@ void Rows::AddPoint(int row, int figure, int link, const Vec3& point, const Vec3
     if (body.links[l].locked) continue;
     Eigen::Map<Vec3> turn(at + 3 + 3 * l);
     turn.noalias() +=
-        frame_->chart[figure][l].transpose() * (point - posed.centre[l]).cross(gradient);
+        frame_->dexp[figure][l].transpose() * (point - posed.centre[l]).cross(gradient);
   }
 }
 
@@ -52,7 +52,7 @@ void Rows::AddTurn(int row, int figure, int link, const Vec3& gradient) {
   for (int l = link; l >= 0; l = body.links[l].parent) {
     if (body.links[l].locked) continue;
     Eigen::Map<Vec3> turn(at + 3 + 3 * l);
-    turn.noalias() += frame_->chart[figure][l].transpose() * gradient;
+    turn.noalias() += frame_->dexp[figure][l].transpose() * gradient;
   }
 }
 
@@ -60,9 +60,9 @@ void Rows::AddJointTurn(int row, int figure, int link, const Vec3& gradient) {
   if (!derivatives_ || frame_->body(figure).links[link].locked) return;
   double* at = jacobian_.row(row).data() + frame_->scene->FirstCoordinate(figure);
   Eigen::Map<Vec3> turn(at + 3 + 3 * link);
-  // chart = R_link J_r, so J_r^T g = chart^T (R_link g).
+  // dexp = R_link J_r, so J_r^T g = dexp^T (R_link g).
   turn.noalias() +=
-      frame_->chart[figure][link].transpose() * (frame_->posed[figure].rotation[link] * gradient);
+      frame_->dexp[figure][link].transpose() * (frame_->posed[figure].rotation[link] * gradient);
 }
 
 void Rows::AddAnchor(int row, int anchor, int component, double value) {
