@@ -9,12 +9,12 @@ namespace retarget::solver {
 namespace {
 
 // The part of the objective that works for a requirement.
-bool WorksFor(const RequirementCheck& check, const Scene& scene, const Pull& pull) {
-  if (pull.term != TermOf(check.kind)) return false;
-  if (check.item >= 0) return pull.item == check.item;
+bool WorksFor(const RequirementCheck& check, const Scene& scene, const TermGradient& gradient) {
+  if (gradient.term != TermOf(check.kind)) return false;
+  if (check.item >= 0) return gradient.item == check.item;
   if (check.kind != RequirementKind::kFootDrift) return true;
   const LimbNode& limb = check.limbs[0];
-  const PlantedFoot foot = FootOfAnchor(scene, pull.item);
+  const PlantedFoot foot = FootOfAnchor(scene, gradient.item);
   return foot.figure == limb.figure && foot.contact.node == limb.node;
 }
 
@@ -27,22 +27,22 @@ Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
   if (check.frame < 0 || check.limbs.empty()) return out;
   const int first = std::max(0, check.frame - kConflictReach);
   const int last = std::min(scene.num_frames(), check.frame + kConflictReach + 1);
-  const std::vector<Pull> pulls =
-      PullsOn(problem, unknowns, first, last, CoordinatesOf(scene, check.limbs));
+  const std::vector<TermGradient> gradients =
+      TermGradients(problem, unknowns, first, last, CoordinatesOf(scene, check.limbs));
   VecX own;
-  for (const Pull& pull : pulls) {
-    if (!WorksFor(check, scene, pull)) continue;
-    own = own.size() == 0 ? pull.gradient : VecX(own + pull.gradient);
+  for (const TermGradient& gradient : gradients) {
+    if (!WorksFor(check, scene, gradient)) continue;
+    own = own.size() == 0 ? gradient.gradient : VecX(own + gradient.gradient);
   }
   if (own.size() == 0 || own.isZero(0)) return out;
-  out.pull = own.norm();
+  out.gradient = own.norm();
   const auto share_of = [&](const VecX& g) { return -g.dot(own) / own.squaredNorm(); };
   std::map<std::string, VecX> by_term;  // the others
-  for (const Pull& pull : pulls) {
-    if (WorksFor(check, scene, pull)) continue;
-    const auto [at, is_new] = by_term.try_emplace(pull.term, pull.gradient);
-    if (!is_new) at->second += pull.gradient;
-    out.unopposed -= share_of(pull.gradient);
+  for (const TermGradient& gradient : gradients) {
+    if (WorksFor(check, scene, gradient)) continue;
+    const auto [at, is_new] = by_term.try_emplace(gradient.term, gradient.gradient);
+    if (!is_new) at->second += gradient.gradient;
+    out.unopposed -= share_of(gradient.gradient);
   }
   for (const auto& [term, gradient] : by_term) {
     if (gradient.isZero(0)) continue;
@@ -53,11 +53,13 @@ Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
   std::stable_sort(out.shares.begin(), out.shares.end(),
                    [](const auto& s, const auto& t) { return s.share > t.share; });
   double most = 0;
-  for (const Pull& pull : pulls) {
-    if (pull.term != out.shares[0].term || pull.item < 0 || WorksFor(check, scene, pull)) continue;
-    if (share_of(pull.gradient) <= most) continue;
-    most = share_of(pull.gradient);
-    out.item = pull.item;
+  for (const TermGradient& gradient : gradients) {
+    if (gradient.term != out.shares[0].term || gradient.item < 0 ||
+        WorksFor(check, scene, gradient))
+      continue;
+    if (share_of(gradient.gradient) <= most) continue;
+    most = share_of(gradient.gradient);
+    out.item = gradient.item;
   }
   return out;
 }

@@ -6,30 +6,30 @@
 namespace retarget::solver {
 namespace {
 
-class Puller {
+class GradientSum {
  public:
-  Puller(const Problem& problem, const Unknowns& unknowns, int first, int last,
-         const std::vector<int>& coordinates)
+  GradientSum(const Problem& problem, const Unknowns& unknowns, int first, int last,
+              const std::vector<int>& coordinates)
       : problem_(problem),
         unknowns_(unknowns),
         first_(first),
         last_(last),
         coordinates_(coordinates) {}
 
-  std::vector<Pull> Run() {
+  std::vector<TermGradient> Run() {
     for (const WeightedTerm& weighted : problem_.terms()) {
       if (weighted.weight == 0) continue;
       const int parts = weighted.term->parts(problem_.scene());
       for (int part = 0; part < parts; ++part) AddPart(*weighted.term, weighted.weight, part);
     }
     AddSmoothness();
-    return std::move(pulls_);
+    return std::move(gradients_);
   }
 
  private:
   void AddPart(const Term& term, double weight, int part) {
     const bool whole = term.part_kind() == PartKind::kWhole;
-    Pull pull{term.name(), whole ? -1 : part, VecX::Zero(size())};
+    TermGradient pull{term.name(), whole ? -1 : part, VecX::Zero(size())};
     int rows_seen = 0;
     for (int t = first_; t < last_; ++t) {
       frame_.Set(problem_.scene(), unknowns_, t, true);
@@ -43,13 +43,13 @@ class Puller {
       Restrict(weight * weight * g, t, &pull);
       rows_seen += rows_.num_rows() + static_cast<int>(rows_.coordinates().size());
     }
-    if (rows_seen > 0) pulls_.push_back(std::move(pull));
+    if (rows_seen > 0) gradients_.push_back(std::move(pull));
   }
 
   void AddSmoothness() {
     const Smoothness& smoothness = problem_.smoothness();
     for (const bool root : {false, true}) {
-      Pull pull{root ? "root_smoothness" : "smoothness", -1, VecX::Zero(size())};
+      TermGradient pull{root ? "root_smoothness" : "smoothness", -1, VecX::Zero(size())};
       for (int t = first_; t < last_; ++t) {
         VecX g = VecX::Zero(problem_.scene().num_coordinates());
         smoothness.AddGradient(unknowns_.edit, t, g);
@@ -58,11 +58,11 @@ class Puller {
         }
         Restrict(g, t, &pull);
       }
-      if (!pull.gradient.isZero(0)) pulls_.push_back(std::move(pull));
+      if (!pull.gradient.isZero(0)) gradients_.push_back(std::move(pull));
     }
   }
 
-  void Restrict(const VecX& g, int t, Pull* pull) const {
+  void Restrict(const VecX& g, int t, TermGradient* pull) const {
     const long n = static_cast<long>(coordinates_.size());
     for (long c = 0; c < n; ++c) {
       pull->gradient[(t - first_) * n + c] = g[coordinates_[static_cast<size_t>(c)]];
@@ -77,14 +77,14 @@ class Puller {
   const std::vector<int>& coordinates_;
   Frame frame_;
   Rows rows_;
-  std::vector<Pull> pulls_;
+  std::vector<TermGradient> gradients_;
 };
 
 }  // namespace
 
-std::vector<Pull> PullsOn(const Problem& problem, const Unknowns& unknowns, int first, int last,
-                          const std::vector<int>& coordinates) {
-  return Puller(problem, unknowns, first, last, coordinates).Run();
+std::vector<TermGradient> TermGradients(const Problem& problem, const Unknowns& unknowns, int first,
+                                        int last, const std::vector<int>& coordinates) {
+  return GradientSum(problem, unknowns, first, last, coordinates).Run();
 }
 
 std::vector<int> CoordinatesOf(const Scene& scene, const std::vector<LimbNode>& limbs) {

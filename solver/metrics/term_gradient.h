@@ -10,7 +10,7 @@
 namespace retarget::solver {
 
 // A hold, a tag or a planted foot pulls by itself; the other terms as a whole.
-struct Pull {
+struct TermGradient {
   std::string term;  // YAML key
   int item = -1;     // part of it (PartKind): hold, tag, or anchor; -1: the whole term
   VecX gradient;     // [frames * coordinates], of 1/2 sum (w r)^2
@@ -18,8 +18,8 @@ struct Pull {
 
 // Pulls on `coordinates` (of a frame) in the frames [first, last). Terms without weight and parts
 // that are absent there are left out.
-std::vector<Pull> PullsOn(const Problem& problem, const Unknowns& unknowns, int first, int last,
-                          const std::vector<int>& coordinates);
+std::vector<TermGradient> TermGradients(const Problem& problem, const Unknowns& unknowns, int first,
+                                        int last, const std::vector<int>& coordinates);
 
 // Coordinates that can move a node: the root's translation and all joints from the root to the
 // node. Sorted; locked joints are left out.

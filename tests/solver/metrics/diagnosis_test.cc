@@ -31,7 +31,7 @@ std::vector<VecX> NumericalPulls(const Problem& problem, const Unknowns& u, int 
   return out;
 }
 
-TEST(Pull, IsTheGradientOfEachTermsCost) {
+TEST(TermGradient, IsTheGradientOfEachTermsCost) {
   const Scene scene = SmallScene(7, 0.2);
   const Problem problem(scene, {});
   Unknowns u = UnknownsFromPoses(scene, scene.source);
@@ -43,11 +43,11 @@ TEST(Pull, IsTheGradientOfEachTermsCost) {
   const std::vector<VecX> numerical = NumericalPulls(problem, u, 2, 4, coordinates);
   std::map<std::string, VecX> sum;
   int holds = 0, feet = 0;
-  for (const Pull& pull : PullsOn(problem, u, 2, 4, coordinates)) {
-    const auto [at, is_new] = sum.try_emplace(pull.term, pull.gradient);
-    if (!is_new) at->second += pull.gradient;
-    holds += pull.term == "hold";
-    feet += pull.term == "foot_lock";
+  for (const TermGradient& gradient : TermGradients(problem, u, 2, 4, coordinates)) {
+    const auto [at, is_new] = sum.try_emplace(gradient.term, gradient.gradient);
+    if (!is_new) at->second += gradient.gradient;
+    holds += gradient.term == "hold";
+    feet += gradient.term == "foot_lock";
   }
   EXPECT_EQ(holds, 2);
   EXPECT_GE(feet, 2);
@@ -65,7 +65,7 @@ TEST(Pull, IsTheGradientOfEachTermsCost) {
   EXPECT_GE(checked, 8);
 }
 
-TEST(Pull, CoordinatesAreTheRootsAndTheJointsUpToTheNode) {
+TEST(TermGradient, CoordinatesAreTheRootsAndTheJointsUpToTheNode) {
   const Scene scene = SmallScene(2, 0.1);
   const Body& body = scene.body[1];
   const int first = scene.FirstCoordinate(1);
