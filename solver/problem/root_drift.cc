@@ -76,7 +76,7 @@ double TravelOf(const Clip& clip) {
 
 }  // namespace
 
-std::array<std::vector<RootShift>, 2> MeetingShifts(const Scene& scene) {
+std::array<std::vector<RootShift>, 2> RootDriftCorrection(const Scene& scene) {
   const size_t frames = static_cast<size_t>(scene.num_frames());
   std::array<std::vector<RootShift>, 2> shifts;
   for (auto& shift : shifts) shift.assign(frames, {});

@@ -21,7 +21,7 @@ struct RootShift {
 // the limbs can bear. The rest is shared between the figures as they travel, so that one who stands
 // stays where he is. No shift at the frame that is laid into the template, where a figure follows
 // its partner, or where no tag ties the two.
-std::array<std::vector<RootShift>, 2> MeetingShifts(const Scene& scene);
+std::array<std::vector<RootShift>, 2> RootDriftCorrection(const Scene& scene);
 
 // The placed root of a figure at frame t with its shift.
 Pose ShiftedRoot(const Pose& source, const RootShift& shift);

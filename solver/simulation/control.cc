@@ -5,7 +5,7 @@
 namespace retarget::solver {
 
 Control::Control(const Scene& scene, const SimulationSettings& settings)
-    : scene_(scene), settings_(settings), meeting_(MeetingShifts(scene)) {
+    : scene_(scene), settings_(settings), meeting_(RootDriftCorrection(scene)) {
   for (int f = 0; f < 2; ++f) {
     relative_[f] = RelativeRootTargets(scene, f);
     for (const Link& link : scene.body[f].links) {

@@ -4,7 +4,7 @@
 
 namespace retarget::solver {
 
-RootTracking::RootTracking(const Scene& scene) : meeting_(MeetingShifts(scene)) {
+RootTracking::RootTracking(const Scene& scene) : meeting_(RootDriftCorrection(scene)) {
   for (int f = 0; f < 2; ++f) relative_[f] = RelativeRootTargets(scene, f);
 }
 

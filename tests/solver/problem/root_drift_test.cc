@@ -37,7 +37,7 @@ double LargestOf(const std::vector<RootShift>& shifts) {
 }
 
 TEST(Meeting, WalkersOfDifferentSpeedMeetByTheShareOfTheirTravel) {
-  const auto shifts = MeetingShifts(Walking(1.0, 1.5));
+  const auto shifts = RootDriftCorrection(Walking(1.0, 1.5));
   for (int t = 0; t < kFrames; ++t) {
     const double drift = 0.5 * t / kFps;
     const double shared = std::max(0.0, drift - kPlay);
@@ -58,14 +58,14 @@ TEST(Meeting, TheFrameThatIsLaidIntoTheTemplateStaysThere) {
       pose.root_position.z() += scene.posture.pose[f].root_position.z() - ahead;
     }
   }
-  const auto shifts = MeetingShifts(scene);
+  const auto shifts = RootDriftCorrection(scene);
   EXPECT_LT(shifts[0][60].shift.norm() + shifts[1][60].shift.norm(), 1e-9);
   EXPECT_NEAR(shifts[0][120].shift.z(), 0.4 * (1 - kPlay), 1e-9);
   EXPECT_NEAR(shifts[0][0].shift.z(), -0.4 * (1 - kPlay), 1e-9);
 }
 
 TEST(Meeting, WhoStandsStaysWhereHeIs) {
-  const auto shifts = MeetingShifts(Walking(0, 1.2));
+  const auto shifts = RootDriftCorrection(Walking(0, 1.2));
   EXPECT_LT(LargestOf(shifts[0]), 1e-9);
   EXPECT_NEAR(shifts[1].back().shift.z(), -(4 * 1.2 - kPlay), 1e-9);
 }
@@ -76,7 +76,7 @@ TEST(Meeting, TurnsAreSharedToo) {
     Quat& root = scene.source[1].frames[t].rotation[0];
     root = YawRotation(1.5 * t / (kFrames - 1)) * root;
   }
-  const auto shifts = MeetingShifts(scene);
+  const auto shifts = RootDriftCorrection(scene);
   EXPECT_NEAR(shifts[0].back().yaw, 0.5 * (1.5 - kPlayTurn), 1e-6);
   EXPECT_NEAR(shifts[1].back().yaw, -0.5 * (1.5 - kPlayTurn), 1e-6);
   const Pose& root = scene.source[1].frames.back();
@@ -92,16 +92,16 @@ TEST(Meeting, SwayAndPaceAreNotDrift) {
     p.x() += 0.04 * std::sin(2 * kPi * t / kFps);
     p.z() += 0.04 * std::sin(4 * kPi * t / kFps);
   }
-  for (const auto& shifts : MeetingShifts(scene)) EXPECT_EQ(LargestOf(shifts), 0);
+  for (const auto& shifts : RootDriftCorrection(scene)) EXPECT_EQ(LargestOf(shifts), 0);
 }
 
 TEST(Meeting, NothingIsSharedWithoutATieOrByAFollower) {
   Scene scene = Walking(1.0, 1.5);
   scene.root[0] = RootReference::kPartner;
-  for (const auto& shifts : MeetingShifts(scene)) EXPECT_EQ(LargestOf(shifts), 0);
+  for (const auto& shifts : RootDriftCorrection(scene)) EXPECT_EQ(LargestOf(shifts), 0);
   scene.root[0] = RootReference::kOwnClip;
   scene.tangles.clear();
-  for (const auto& shifts : MeetingShifts(scene)) EXPECT_EQ(LargestOf(shifts), 0);
+  for (const auto& shifts : RootDriftCorrection(scene)) EXPECT_EQ(LargestOf(shifts), 0);
 }
 
 }  // namespace
