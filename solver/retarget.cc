@@ -43,7 +43,7 @@ void WarnOfWeakTags(RetargetResult* result) {
 bool MeetsAll(const Problem& problem, const SolveResult& solved) {
   const Scene& scene = problem.scene();
   const std::array<Clip, 2> clips = EditedClips(scene, solved.unknowns);
-  const MeasureSubject subject = SubjectOf(scene);
+  const MetricsContext subject = MetricsContextOf(scene);
   const Metrics metrics =
       Measure(subject, ViewOf(scene.body, clips), ViewOf(scene.body, scene.source));
   return AllMet(CheckRequirements(subject, metrics, problem.settings().requirements));

@@ -72,7 +72,7 @@ std::vector<std::string> Conflict::terms() const {
 }
 
 std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unknowns,
-                                    const MeasureSubject& subject, const Metrics& metrics,
+                                    const MetricsContext& subject, const Metrics& metrics,
                                     const std::vector<RequirementCheck>& checks) {
   std::vector<Conflict> conflicts;
   for (const RequirementCheck& check : checks) {

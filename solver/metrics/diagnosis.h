@@ -101,7 +101,7 @@ struct Conflict {
 
 // One conflict per missed requirement, in the order of the checks.
 std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unknowns,
-                                    const MeasureSubject& subject, const Metrics& metrics,
+                                    const MetricsContext& subject, const Metrics& metrics,
                                     const std::vector<RequirementCheck>& checks);
 
 }  // namespace retarget::solver

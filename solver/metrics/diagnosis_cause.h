@@ -9,7 +9,7 @@ namespace retarget::solver {
 struct ConflictCase {
   const Problem& problem;
   const Unknowns& unknowns;
-  const MeasureSubject& subject;
+  const MetricsContext& subject;
   const Metrics& metrics;
 };
 

@@ -49,7 +49,7 @@ Overlap DeepestWithin(const Body& body, const std::vector<std::pair<int, int>>& 
 // Measures single instants; what depends on the subject alone is worked out once.
 class InstantMeter {
  public:
-  explicit InstantMeter(const MeasureSubject& subject) : subject_(subject) {
+  explicit InstantMeter(const MetricsContext& subject) : subject_(subject) {
     for (const TangleTarget& held : subject.tangles) {
       paths_.push_back({NodesOn(subject.body[0], held.tag.tangle.a),
                         NodesOn(subject.body[1], held.tag.tangle.b)});
@@ -60,8 +60,8 @@ class InstantMeter {
     }
   }
 
-  InstantValues Measure(const PostureSample& now, bool on_frame) const {
-    InstantValues out;
+  InstantMetrics Measure(const PostureSample& now, bool on_frame) const {
+    InstantMetrics out;
     for (size_t k = 0; k < paths_.size(); ++k) {
       out.gli.push_back(
           subject_.tangles[k].sign *
@@ -101,13 +101,13 @@ class InstantMeter {
     }
   }
 
-  const MeasureSubject& subject_;
+  const MetricsContext& subject_;
   std::vector<std::array<std::vector<int>, 2>> paths_;
   std::array<std::vector<std::pair<int, int>>, 2> self_pairs_;
   std::array<std::vector<double>, 2> radius_;
 };
 
-void KeepWorst(const InstantValues& other, InstantValues* worst) {
+void KeepWorst(const InstantMetrics& other, InstantMetrics* worst) {
   for (size_t k = 0; k < other.gli.size(); ++k) {
     worst->gli[k] = std::min(worst->gli[k], other.gli[k]);
   }
@@ -145,17 +145,17 @@ std::vector<int> TrackedJoints(const Body& body) {
   return joints;
 }
 
-double PlantedSpeed(const FrameSeries& series, int figure, const Contact& contact, int t) {
+double PlantedSpeed(const FrameMetrics& series, int figure, const Contact& contact, int t) {
   return series.fps *
          (series.node[t][figure][contact.node] - series.node[t - 1][figure][contact.node]).norm();
 }
 
-FrameSeries MeasureSeries(const MeasureSubject& subject, const MotionView& motion,
-                          const MotionView& source) {
+FrameMetrics MeasureFrames(const MetricsContext& subject, const MotionView& motion,
+                           const MotionView& source) {
   const InstantMeter meter(subject);
   const int frames = motion.num_frames;
   const size_t n = static_cast<size_t>(frames);
-  FrameSeries out;
+  FrameMetrics out;
   out.fps = motion.fps;
   out.at.resize(n);
   out.between.resize(n > 0 ? n - 1 : 0);

@@ -23,7 +23,7 @@ struct FigureValues {
 };
 
 // What one instant shows, or the worst of several.
-struct InstantValues {
+struct InstantMetrics {
   std::vector<double> gli;  // s GLI per tag (turns)
   Overlap penetration;      // deepest between the bodies: node_1 of a, node_2 of b
   std::vector<double> hold_m;
@@ -36,11 +36,11 @@ struct PassThrough {
   int node_a = 0, node_b = 0;
 };
 
-struct FrameSeries {
+struct FrameMetrics {
   double fps = 30;
-  std::vector<InstantValues> at;       // the frames
-  std::vector<InstantValues> between;  // worst of the instants between a frame and the next, one
-                                       // fewer; self-penetration is not looked for there
+  std::vector<InstantMetrics> at;       // the frames
+  std::vector<InstantMetrics> between;  // worst of the instants between a frame and the next, one
+                                        // fewer; self-penetration is not looked for there
   std::vector<PassThrough> pass_throughs;
   // Largest speed of a planted node since the frame before (m/s); 0 where nothing is planted.
   std::array<std::vector<double>, 2> foot_speed;
@@ -53,13 +53,13 @@ struct FrameSeries {
 
 // Measures `motion` at its frames and at three instants between each two; `source` (the placed,
 // unedited clips) is what joints are compared with.
-FrameSeries MeasureSeries(const MeasureSubject& subject, const MotionView& motion,
-                          const MotionView& source);
+FrameMetrics MeasureFrames(const MetricsContext& subject, const MotionView& motion,
+                           const MotionView& source);
 
 // The nodes whose carrying link differs from their parent node's, one per joint.
 std::vector<int> TrackedJoints(const Body& body);
 
 // Speed (m/s) of a planted node from frame t - 1 to t, t in (contact.first, contact.last].
-double PlantedSpeed(const FrameSeries& series, int figure, const Contact& contact, int t);
+double PlantedSpeed(const FrameMetrics& series, int figure, const Contact& contact, int t);
 
 }  // namespace retarget::solver

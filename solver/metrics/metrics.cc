@@ -17,7 +17,7 @@ constexpr double kSlideSpeed = 0.01;  // m/s
 // The metrics are extremes, shares and means of the series.
 class Measurement {
  public:
-  Measurement(const MeasureSubject& subject, const FrameSeries& series,
+  Measurement(const MetricsContext& subject, const FrameMetrics& series,
               const std::vector<NodePositions>& source)
       : subject_(subject), series_(series), frames_(series.node), source_frames_(source) {}
 
@@ -80,7 +80,7 @@ class Measurement {
   }
 
   // Takes the extremes of one instant, or of those between frame t and the next.
-  void Include(const InstantValues& values, int t) {
+  void Include(const InstantMetrics& values, int t) {
     if (values.penetration.depth_m > out_.penetration_between_m) {
       out_.penetration_between_m = values.penetration.depth_m;
       out_.penetration_frame = t;
@@ -199,21 +199,21 @@ class Measurement {
     }
   }
 
-  const MeasureSubject& subject_;
-  const FrameSeries& series_;
+  const MetricsContext& subject_;
+  const FrameMetrics& series_;
   const std::vector<NodePositions>&frames_, &source_frames_;
   Metrics out_;
 };
 
 }  // namespace
 
-Metrics MetricsOf(const MeasureSubject& subject, const FrameSeries& series,
+Metrics MetricsOf(const MetricsContext& subject, const FrameMetrics& series,
                   const std::vector<NodePositions>& source) {
   return Measurement(subject, series, source).Run();
 }
 
-Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const MotionView& source) {
-  return MetricsOf(subject, MeasureSeries(subject, motion, source), NodesOf(source));
+Metrics Measure(const MetricsContext& subject, const MotionView& motion, const MotionView& source) {
+  return MetricsOf(subject, MeasureFrames(subject, motion, source), NodesOf(source));
 }
 
 }  // namespace retarget::solver

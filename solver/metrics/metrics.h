@@ -50,9 +50,9 @@ struct Metrics {
 
 // Measures `motion`; `source` (the placed, unedited clips) is what edits and jerk are compared
 // with.
-Metrics Measure(const MeasureSubject& subject, const MotionView& motion, const MotionView& source);
+Metrics Measure(const MetricsContext& subject, const MotionView& motion, const MotionView& source);
 // The same from a series that has been measured already, and the source's node places per frame.
-Metrics MetricsOf(const MeasureSubject& subject, const FrameSeries& series,
+Metrics MetricsOf(const MetricsContext& subject, const FrameMetrics& series,
                   const std::vector<NodePositions>& source);
 
 }  // namespace retarget::solver

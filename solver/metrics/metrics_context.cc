@@ -36,8 +36,8 @@ std::vector<NodePositions> NodesOf(const MotionView& motion) {
   return nodes;
 }
 
-MeasureSubject SubjectOf(const Scene& scene) {
-  MeasureSubject subject{scene.body, {}, scene.tangles, scene.holds, scene.contacts};
+MetricsContext MetricsContextOf(const Scene& scene) {
+  MetricsContext subject{scene.body, {}, scene.tangles, scene.holds, scene.contacts};
   for (int f = 0; f < 2; ++f) {
     subject.length[f].push_back(0);
     for (int n = 1; n < scene.body[f].num_nodes(); ++n) {

@@ -33,13 +33,13 @@ MotionView ViewOf(const std::array<Body, 2>& body, const std::array<Clip, 2>& cl
 std::vector<NodePositions> NodesOf(const MotionView& motion);
 
 // What is measured against: tags, contacts, holds and bodies of the scene.
-struct MeasureSubject {
+struct MetricsContext {
   std::array<Body, 2> body;                   // tree and radii
   std::array<std::vector<double>, 2> length;  // of the segment that ends at each node (m)
   std::vector<TangleTarget> tangles;
   std::vector<Hold> holds;
   std::array<std::vector<Contact>, 2> contacts;
 };
-MeasureSubject SubjectOf(const Scene& scene);
+MetricsContext MetricsContextOf(const Scene& scene);
 
 }  // namespace retarget::solver

@@ -10,7 +10,7 @@ using Kind = RequirementKind;
 
 class Requiring {
  public:
-  Requiring(const MeasureSubject& subject, const Metrics& metrics, const Requirements& requirements)
+  Requiring(const MetricsContext& subject, const Metrics& metrics, const Requirements& requirements)
       : subject_(subject), m_(metrics), r_(requirements) {}
 
   std::vector<RequirementCheck> Run() {
@@ -81,7 +81,7 @@ class Requiring {
     }
   }
 
-  const MeasureSubject& subject_;
+  const MetricsContext& subject_;
   const Metrics& m_;
   const Requirements& r_;
   std::vector<RequirementCheck> checks_;
@@ -114,7 +114,7 @@ bool AllMet(const std::vector<RequirementCheck>& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const RequirementCheck& c) { return c.met; });
 }
 
-std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject,
+std::vector<RequirementCheck> CheckRequirements(const MetricsContext& subject,
                                                 const Metrics& metrics,
                                                 const Requirements& requirements) {
   return Requiring(subject, metrics, requirements).Run();

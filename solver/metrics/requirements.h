@@ -41,7 +41,7 @@ struct RequirementCheck {
 bool AllMet(const std::vector<RequirementCheck>& checks);
 
 // Of the motion.
-std::vector<RequirementCheck> CheckRequirements(const MeasureSubject& subject,
+std::vector<RequirementCheck> CheckRequirements(const MetricsContext& subject,
                                                 const Metrics& metrics,
                                                 const Requirements& requirements);
 

@@ -183,8 +183,8 @@ TEST(GrownBody, BothBackEndsSolveIt) {
     EXPECT_GT(result.iterations, 0) << NameOf(backend);
     cost[backend == Backend::kCeres] = result.cost;
     const std::array<Clip, 2> solved = EditedClips(scene, result.unknowns);
-    const Metrics m =
-        Measure(SubjectOf(scene), ViewOf(scene.body, solved), ViewOf(scene.body, scene.source));
+    const Metrics m = Measure(MetricsContextOf(scene), ViewOf(scene.body, solved),
+                              ViewOf(scene.body, scene.source));
     EXPECT_GT(m.smallest_gli_between, 0.5) << NameOf(backend);
     EXPECT_EQ(m.tangle_kept_percent, 100) << NameOf(backend);
     EXPECT_TRUE(m.pass_throughs.empty()) << NameOf(backend);

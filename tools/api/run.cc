@@ -64,7 +64,7 @@ Result RunJob(const Job& job, const Progress& progress) {
   }
 
   // Measure what is written, as it would be read back.
-  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  const solver::MetricsContext subject = solver::MetricsContextOf(scene);
   report::MeasuredScene source(SceneBytes(scene, result.source()), "source.glb", subject.body);
   report::MeasuredScene baseline(SceneBytes(scene, result.baseline()), "baseline.glb",
                                  subject.body);
@@ -154,7 +154,7 @@ std::string RequirementName(const solver::RequirementCheck& requirement) {
 }
 
 std::string DiagnosisText(const solver::Conflict& diagnosis, const Result& result) {
-  return report::ConflictSentence(diagnosis, solver::SubjectOf(result.run.scene));
+  return report::ConflictSentence(diagnosis, solver::MetricsContextOf(result.run.scene));
 }
 
 const char* Version() { return api::kVersion; }

@@ -21,7 +21,7 @@ struct WrittenRig {
 struct RunFacts {
   const Job& job;
   const solver::RetargetResult& result;
-  const solver::MeasureSubject& subject;
+  const solver::MetricsContext& subject;
   const std::vector<solver::RequirementCheck>& checks;
   const std::vector<solver::Conflict>& conflicts;
   int exit_code;

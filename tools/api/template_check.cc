@@ -46,7 +46,7 @@ TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& sett
   scene.tangles = solver::TangleTargets(check.tangles.tags, posture, settings.tangle.margin);
   scene.holds = posture.holds;
   for (int f = 0; f < 2; ++f) scene.source[f].frames = {posture.pose[f]};
-  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  const solver::MetricsContext subject = solver::MetricsContextOf(scene);
   const solver::MotionView view = solver::ViewOf(scene.body, scene.source);
   check.metrics = solver::Measure(subject, view, view);
   check.checks = solver::CheckRequirements(subject, check.metrics, settings.requirements);

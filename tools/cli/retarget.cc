@@ -110,7 +110,7 @@ int RunRetarget(const RetargetOptions& options) {
     return exit_code;
   }
   fmt::print("{}",
-             report::MetricsTable(solver::SubjectOf(result.run.scene), result.source_metrics,
+             report::MetricsTable(solver::MetricsContextOf(result.run.scene), result.source_metrics,
                                   &result.baseline_metrics, result.metrics, result.requirements));
   for (const solver::Conflict& conflict : result.diagnoses) {
     fmt::print("  {}\n", DiagnosisText(conflict, result));

@@ -22,7 +22,7 @@ int RunSimulate(const RetargetOptions& options) {
   const solver::Scene& scene = prepared.scene;
   const solver::SimulationResult simulation = solver::Simulate(scene, settings.simulation);
 
-  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  const solver::MetricsContext subject = solver::MetricsContextOf(scene);
   report::MeasuredScene source(api::SceneBytes(scene, scene.source), "source.glb", subject.body);
   report::MeasuredScene baseline(api::SceneBytes(scene, simulation.motion), "baseline.glb",
                                  subject.body);

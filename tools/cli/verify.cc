@@ -52,7 +52,7 @@ void CheckFrames(const report::MeasuredScene& scene, const std::string& path, in
 int RunVerify(const std::string& folder, bool json) {
   const std::string report_path = folder + "/report.json";
   const report::Json report = report::ReadReport(folder);
-  const solver::MeasureSubject subject = report::SubjectFromJson(report, report_path);
+  const solver::MetricsContext subject = report::SubjectFromJson(report, report_path);
   const Settings settings = io::ReadSettings(folder + "/config.yaml");
   report::MeasuredScene scene(io::ReadFile(folder + "/scene.glb"), folder + "/scene.glb",
                               subject.body);

@@ -19,7 +19,7 @@ constexpr double kElevation = 0.2;  // rad
 constexpr int kBand = 28;           // pixels over a picture, for its label
 
 std::vector<io::RenderCapsule> CapsulesAt(const solver::PostureSample& sample,
-                                          const solver::MeasureSubject& subject) {
+                                          const solver::MetricsContext& subject) {
   std::vector<io::RenderCapsule> out;
   for (int f = 0; f < 2; ++f) {
     const Body& body = subject.body[f];
@@ -81,7 +81,7 @@ io::Image TemplateSheet(const TemplatePosture& posture, int width, int height) {
 
 io::Image SolvedPicture(const std::string& folder, const SheetInstant& instant,
                         const std::string& label, int width, int height) {
-  const solver::MeasureSubject subject =
+  const solver::MetricsContext subject =
       SubjectFromJson(ReadReport(folder), folder + "/report.json");
   const io::SceneMotion scene = io::ReadSceneGlb(folder + "/scene.glb");
   const solver::MotionView view = ViewOfScene(scene, subject.body);
@@ -94,7 +94,7 @@ io::Image SolvedPicture(const std::string& folder, const SheetInstant& instant,
 io::Image ContactSheet(const std::string& folder, const std::vector<SheetInstant>& instants,
                        bool baseline, int width, int height) {
   const Json report = ReadReport(folder);
-  const solver::MeasureSubject subject = SubjectFromJson(report, folder + "/report.json");
+  const solver::MetricsContext subject = SubjectFromJson(report, folder + "/report.json");
   std::vector<std::pair<const char*, io::SceneMotion>> motions;
   motions.emplace_back("source", io::ReadSceneGlb(folder + "/source.glb"));
   if (baseline && std::filesystem::exists(folder + "/baseline.glb")) {

@@ -16,7 +16,7 @@ constexpr double kAlsoOpposes = 0.2;  // share that is worth a word beside the l
 
 class Sentence {
  public:
-  Sentence(const solver::Conflict& conflict, const solver::MeasureSubject& subject)
+  Sentence(const solver::Conflict& conflict, const solver::MetricsContext& subject)
       : c_(conflict), check_(conflict.check), subject_(subject) {}
 
   std::string What() const {
@@ -203,7 +203,7 @@ class Sentence {
 
   const solver::Conflict& c_;
   const solver::RequirementCheck& check_;
-  const solver::MeasureSubject& subject_;
+  const solver::MetricsContext& subject_;
 };
 
 }  // namespace
@@ -243,7 +243,7 @@ const char* CauseName(Cause cause) {
 }
 
 std::string ConflictSentence(const solver::Conflict& conflict,
-                             const solver::MeasureSubject& subject) {
+                             const solver::MetricsContext& subject) {
   const Sentence sentence(conflict, subject);
   return NameOf(conflict.check) + ": " + sentence.What() + "; " + sentence.Why();
 }

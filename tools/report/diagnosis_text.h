@@ -11,6 +11,6 @@ namespace retarget::report {
 // "flat_tangle": as report.json has it.
 const char* CauseName(solver::Cause cause);
 std::string ConflictSentence(const solver::Conflict& conflict,
-                             const solver::MeasureSubject& subject);
+                             const solver::MetricsContext& subject);
 
 }  // namespace retarget::report

@@ -64,8 +64,8 @@ MeasuredScene::MeasuredScene(std::string bytes, const std::string& name,
       scene_(io::ParseSceneGlb(bytes_, name)),
       view_(ViewOfScene(scene_, body)) {}
 
-void MeasuredScene::Measure(const solver::MeasureSubject& subject, const MeasuredScene& source) {
-  series_ = solver::MeasureSeries(subject, view_, source.view_);
+void MeasuredScene::Measure(const solver::MetricsContext& subject, const MeasuredScene& source) {
+  series_ = solver::MeasureFrames(subject, view_, source.view_);
   metrics_ = solver::MetricsOf(subject, series_, solver::NodesOf(source.view_));
 }
 

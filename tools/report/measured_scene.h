@@ -22,18 +22,18 @@ class MeasuredScene {
   MeasuredScene(const MeasuredScene&) = delete;  // the view looks at the scene
   MeasuredScene& operator=(const MeasuredScene&) = delete;
   // Fills series and metrics; `source` may be this scene itself.
-  void Measure(const solver::MeasureSubject& subject, const MeasuredScene& source);
+  void Measure(const solver::MetricsContext& subject, const MeasuredScene& source);
 
   const std::string& bytes() const { return bytes_; }
   const solver::MotionView& view() const { return view_; }
-  const solver::FrameSeries& series() const { return series_; }
+  const solver::FrameMetrics& series() const { return series_; }
   const solver::Metrics& metrics() const { return metrics_; }
 
  private:
   std::string bytes_;
   io::SceneMotion scene_;
   solver::MotionView view_;
-  solver::FrameSeries series_;
+  solver::FrameMetrics series_;
   solver::Metrics metrics_;
 };
 

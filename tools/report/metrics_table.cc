@@ -93,7 +93,7 @@ std::string RequiredCell(const MetricRow& row, const Json& limit) {
                      row.requirement == Kind::kTangle ? "> " : "<= ", limit.get<double>());
 }
 
-std::string MetricsTable(const solver::MeasureSubject& subject, const solver::Metrics& source,
+std::string MetricsTable(const solver::MetricsContext& subject, const solver::Metrics& source,
                          const solver::Metrics* baseline, const solver::Metrics& result,
                          const std::vector<solver::RequirementCheck>& checks,
                          const char* last_column) {

@@ -29,7 +29,7 @@ inline constexpr const char* kStarNote = "* misses what is required\n";
 
 // "metric | source | baseline | result | required", one line each, with what is missed marked.
 // `baseline` may be null; `last_column` heads the motion that the checks are about.
-std::string MetricsTable(const solver::MeasureSubject& subject, const solver::Metrics& source,
+std::string MetricsTable(const solver::MetricsContext& subject, const solver::Metrics& source,
                          const solver::Metrics* baseline, const solver::Metrics& result,
                          const std::vector<solver::RequirementCheck>& checks,
                          const char* last_column = "result");

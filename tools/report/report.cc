@@ -58,7 +58,7 @@ std::string SettleSentence(const solver::SimulationResult& s) {
                      100 * s.settle_distance_m);
 }
 
-Json MetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& m) {
+Json MetricsJson(const solver::MetricsContext& subject, const solver::Metrics& m) {
   Json tangles = Json::array();
   for (const solver::TangleMetrics& t : m.tangles) {
     tangles.push_back({{"min_signed_gli", t.min_signed_gli},
@@ -79,7 +79,7 @@ Json MetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& m
           {"b", FigureJson(subject.body[1], m.figure[1])}};
 }
 
-Json PassThroughsJson(const solver::MeasureSubject& subject,
+Json PassThroughsJson(const solver::MetricsContext& subject,
                       const std::vector<solver::PassThrough>& passes) {
   Json out = Json::array();
   for (const solver::PassThrough& p : passes) {
@@ -90,7 +90,7 @@ Json PassThroughsJson(const solver::MeasureSubject& subject,
   return out;
 }
 
-Json ThreeMetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& source,
+Json ThreeMetricsJson(const solver::MetricsContext& subject, const solver::Metrics& source,
                       const solver::Metrics* baseline, const solver::Metrics& result) {
   return {{"source", MetricsJson(subject, source)},
           {"baseline", baseline ? MetricsJson(subject, *baseline) : Json(nullptr)},
@@ -98,7 +98,7 @@ Json ThreeMetricsJson(const solver::MeasureSubject& subject, const solver::Metri
 }
 
 Json ConflictsJson(const std::vector<solver::Conflict>& conflicts,
-                   const solver::MeasureSubject& subject) {
+                   const solver::MetricsContext& subject) {
   Json out = Json::array();
   for (const solver::Conflict& c : conflicts) {
     Json limbs = Json::array();

@@ -22,14 +22,14 @@ Json SimulationJson(const solver::SimulationResult& simulation);
 // When the figures came to rest, and how far from the template.
 std::string SettleSentence(const solver::SimulationResult& simulation);
 
-Json MetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& metrics);
+Json MetricsJson(const solver::MetricsContext& subject, const solver::Metrics& metrics);
 // All three as report.json has them; `baseline` may be null.
-Json ThreeMetricsJson(const solver::MeasureSubject& subject, const solver::Metrics& source,
+Json ThreeMetricsJson(const solver::MetricsContext& subject, const solver::Metrics& source,
                       const solver::Metrics* baseline, const solver::Metrics& result);
-Json PassThroughsJson(const solver::MeasureSubject& subject,
+Json PassThroughsJson(const solver::MetricsContext& subject,
                       const std::vector<solver::PassThrough>& passes);
 
 Json ConflictsJson(const std::vector<solver::Conflict>& conflicts,
-                   const solver::MeasureSubject& subject);
+                   const solver::MetricsContext& subject);
 
 }  // namespace retarget::report

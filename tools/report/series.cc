@@ -14,9 +14,9 @@ Json Rounded(double value, int digits) {
 
 // [frames] of value(instant).
 template <typename Value>
-Json Curve(const solver::FrameSeries& series, int digits, const Value& value) {
+Json Curve(const solver::FrameMetrics& series, int digits, const Value& value) {
   Json out = Json::array();
-  for (const solver::InstantValues& at : series.at) out.push_back(Rounded(value(at), digits));
+  for (const solver::InstantMetrics& at : series.at) out.push_back(Rounded(value(at), digits));
   return out;
 }
 
@@ -26,9 +26,9 @@ Json Curve(const std::vector<double>& values, double scale, int digits) {
   return out;
 }
 
-Json PenetrationPairs(const solver::MeasureSubject& subject, const solver::FrameSeries& series) {
+Json PenetrationPairs(const solver::MetricsContext& subject, const solver::FrameMetrics& series) {
   Json out = Json::array();
-  for (const solver::InstantValues& at : series.at) {
+  for (const solver::InstantMetrics& at : series.at) {
     if (at.penetration.depth_m <= 0) {
       out.push_back(nullptr);
       continue;
@@ -47,29 +47,31 @@ Json Tracking(const Body& body, const std::vector<std::vector<double>>& turn_deg
   return {{"joints", joints}, {"values", values}};
 }
 
-Json MotionJson(const solver::MeasureSubject& subject, const solver::FrameSeries& series,
+Json MotionJson(const solver::MetricsContext& subject, const solver::FrameMetrics& series,
                 bool is_source) {
   Json tangles = Json::array(), holds = Json::array();
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
-    tangles.push_back(Curve(series, 4, [k](const solver::InstantValues& at) { return at.gli[k]; }));
+    tangles.push_back(
+        Curve(series, 4, [k](const solver::InstantMetrics& at) { return at.gli[k]; }));
   }
   for (size_t k = 0; k < subject.holds.size(); ++k) {
     holds.push_back(
-        Curve(series, 3, [k](const solver::InstantValues& at) { return 100 * at.hold_m[k]; }));
+        Curve(series, 3, [k](const solver::InstantMetrics& at) { return 100 * at.hold_m[k]; }));
   }
   Json out = {{"tangles", tangles},
-              {"penetration_cm",
-               Curve(series, 3,
-                     [](const solver::InstantValues& at) { return 100 * at.penetration.depth_m; })},
+              {"penetration_cm", Curve(series, 3,
+                                       [](const solver::InstantMetrics& at) {
+                                         return 100 * at.penetration.depth_m;
+                                       })},
               {"penetration_pair", PenetrationPairs(subject, series)},
               {"hold_cm", holds}};
   for (int f = 0; f < 2; ++f) {
     const char* who = kFigure[f];
-    out["self_penetration_cm"][who] = Curve(series, 3, [f](const solver::InstantValues& at) {
+    out["self_penetration_cm"][who] = Curve(series, 3, [f](const solver::InstantMetrics& at) {
       return 100 * at.figure[f].self_penetration.depth_m;
     });
     out["floor_cm"][who] = Curve(
-        series, 3, [f](const solver::InstantValues& at) { return 100 * at.figure[f].floor_m; });
+        series, 3, [f](const solver::InstantMetrics& at) { return 100 * at.figure[f].floor_m; });
     out["foot_speed_cm_s"][who] = Curve(series.foot_speed[f], 100, 3);
     out["tracking_deg"][who] =
         is_source ? Json(nullptr) : Tracking(subject.body[f], series.tracking_deg[f]);
@@ -80,8 +82,8 @@ Json MotionJson(const solver::MeasureSubject& subject, const solver::FrameSeries
 
 }  // namespace
 
-Json SeriesJson(const solver::MeasureSubject& subject, const solver::FrameSeries& source,
-                const solver::FrameSeries* baseline, const solver::FrameSeries& result) {
+Json SeriesJson(const solver::MetricsContext& subject, const solver::FrameMetrics& source,
+                const solver::FrameMetrics* baseline, const solver::FrameMetrics& result) {
   return {{"fps", result.fps},
           {"frames", result.num_frames()},
           {"source", MotionJson(subject, source, true)},

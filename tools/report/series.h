@@ -8,7 +8,7 @@
 namespace retarget::report {
 
 // Source, baseline and result of one scene; the baseline may be null.
-Json SeriesJson(const solver::MeasureSubject& subject, const solver::FrameSeries& source,
-                const solver::FrameSeries* baseline, const solver::FrameSeries& result);
+Json SeriesJson(const solver::MetricsContext& subject, const solver::FrameMetrics& source,
+                const solver::FrameMetrics* baseline, const solver::FrameMetrics& result);
 
 }  // namespace retarget::report

@@ -11,7 +11,7 @@ Json PathJson(const Body& body, const Path& path) {
   return Json::array({body.nodes[path.from].name, body.nodes[path.to].name});
 }
 
-Json HoldPointJson(const solver::MeasureSubject& subject, const HoldPoint& point) {
+Json HoldPointJson(const solver::MetricsContext& subject, const HoldPoint& point) {
   if (point.figure == kWorld) return {{"figure", "world"}, {"position", VectorJson(point.offset)}};
   return {{"figure", kFigure[point.figure]},
           {"node", subject.body[point.figure].nodes[point.node].name},
@@ -25,7 +25,7 @@ int NodeNamed(const Body& body, const Json& name) {
   return node;
 }
 
-HoldPoint HoldPointFromJson(const solver::MeasureSubject& subject, const Json& j) {
+HoldPoint HoldPointFromJson(const solver::MetricsContext& subject, const Json& j) {
   HoldPoint point;
   const std::string figure = j.at("figure");
   if (figure == "world") return {kWorld, 0, VectorFromJson(j.at("position"))};
@@ -73,7 +73,7 @@ Body BodyFromJson(const Json& figure) {
 
 }  // namespace
 
-Json SubjectJson(const solver::MeasureSubject& subject, const solver::Metrics& result) {
+Json SubjectJson(const solver::MetricsContext& subject, const solver::Metrics& result) {
   Json out;
   out["tangles"] = Json::array();
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
@@ -119,9 +119,9 @@ Json SubjectJson(const solver::MeasureSubject& subject, const solver::Metrics& r
   return out;
 }
 
-solver::MeasureSubject SubjectFromJson(const Json& report, const std::string& path) {
+solver::MetricsContext SubjectFromJson(const Json& report, const std::string& path) {
   try {
-    solver::MeasureSubject subject;
+    solver::MetricsContext subject;
     for (int f = 0; f < 2; ++f) {
       const Json& figure = report.at("bodies").at(kFigure[f]);
       Body& body = subject.body[f];

@@ -8,8 +8,8 @@
 
 namespace retarget::report {
 
-Json SubjectJson(const solver::MeasureSubject& subject, const solver::Metrics& result);
+Json SubjectJson(const solver::MetricsContext& subject, const solver::Metrics& result);
 // The subject of a report read back. Throws InputError naming `path`.
-solver::MeasureSubject SubjectFromJson(const Json& report, const std::string& path);
+solver::MetricsContext SubjectFromJson(const Json& report, const std::string& path);
 
 }  // namespace retarget::report

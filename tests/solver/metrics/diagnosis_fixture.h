@@ -15,7 +15,7 @@ struct Solved {
   Settings settings;
   std::unique_ptr<Problem> problem;
   Unknowns unknowns;
-  MeasureSubject subject;
+  MetricsContext subject;
   Metrics metrics;
   std::vector<RequirementCheck> checks;
   std::vector<Conflict> conflicts;
@@ -23,7 +23,7 @@ struct Solved {
   Solved(const Scene& s, const Settings& with) : scene(s), settings(with) {
     problem = std::make_unique<Problem>(scene, settings);
     unknowns = SolveSpacetime(*problem, UnknownsFromPoses(scene, scene.source), {}).unknowns;
-    subject = SubjectOf(scene);
+    subject = MetricsContextOf(scene);
     const std::array<Clip, 2> solved = EditedClips(scene, unknowns);
     metrics = Measure(subject, ViewOf(scene.body, solved), ViewOf(scene.body, scene.source));
     checks = CheckRequirements(subject, metrics, settings.requirements);
@@ -67,7 +67,7 @@ inline Scene HandTo(const std::vector<Vec3>& away) {
 class MissTest : public testing::Test {
  protected:
   MissTest() : scene_(SmallScene(9, 0)) {
-    subject_ = SubjectOf(scene_);
+    subject_ = MetricsContextOf(scene_);
     unknowns_ = UnknownsFromPoses(scene_, scene_.source);
     metrics_ =
         Measure(subject_, ViewOf(scene_.body, scene_.source), ViewOf(scene_.body, scene_.source));
@@ -126,7 +126,7 @@ class MissTest : public testing::Test {
   }
 
   Scene scene_;
-  MeasureSubject subject_;
+  MetricsContext subject_;
   Unknowns unknowns_;
   Metrics metrics_;
 };

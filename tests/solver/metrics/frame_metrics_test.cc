@@ -32,11 +32,11 @@ class SeriesTest : public testing::Test {
   }
 
   int Node(int f, const char* name) const { return subject_.body[f].FindNode(name); }
-  FrameSeries Run() const {
-    return MeasureSeries(subject_, ViewOf(subject_.body, motion_), ViewOf(subject_.body, source_));
+  FrameMetrics Run() const {
+    return MeasureFrames(subject_, ViewOf(subject_.body, motion_), ViewOf(subject_.body, source_));
   }
 
-  MeasureSubject subject_;
+  MetricsContext subject_;
   std::array<Clip, 2> source_, motion_;
 };
 
@@ -54,7 +54,7 @@ TEST_F(SeriesTest, DepthFloorAndHoldFollowTheRuler) {
   hold.from = {0, hand_a, Vec3::Zero()};
   hold.to = {1, hand_b, Vec3::Zero()};
   subject_.holds = {hold};
-  const FrameSeries s = Run();
+  const FrameMetrics s = Run();
   ASSERT_EQ(s.num_frames(), kFrames);
   for (int t = 0; t < kFrames; ++t) {
     EXPECT_NEAR(s.at[t].penetration.depth_m, t > 4 ? 0.001 * (t - 4) : 0, 1e-12) << t;
@@ -81,7 +81,7 @@ TEST_F(SeriesTest, FloorDepthIsThatOfTheLowestCapsule) {
       pose.rotation[0] = turn * pose.rotation[0];
       pose.root_position.y() = 0.02 - 0.002 * t;
     }
-    const FrameSeries s = Run();
+    const FrameMetrics s = Run();
     for (int t = 0; t < kFrames; ++t) {
       const PosedBody posed = PoseBody(body, motion_[1].frames[t]);
       double deepest = 0;
@@ -119,7 +119,7 @@ TEST_F(SeriesTest, FloorDepthIsTheWidestCapsulesAtTheLowestNode) {
   for (const double shank : {0.02, 0.04, 0.055}) {
     body.nodes[ankle[0]].radius = shank;
     body.nodes[ankle[1]].radius = 0.03;
-    const FrameSeries s = Run();
+    const FrameMetrics s = Run();
     const double deeper = std::max(shank, 0.04) - 0.04;
     for (int t = 0; t < kFrames; ++t) {
       EXPECT_NEAR(s.at[t].figure[1].floor_m, deeper + 0.002 * t, 1e-12) << shank << " " << t;
@@ -135,7 +135,7 @@ TEST_F(SeriesTest, FootSpeedIsTheFastestPlantedNodeAndZeroElsewhere) {
   // a moves 2 mm per frame: 6 cm/s at 30 fps. Planted from frame 2 to 5.
   for (int t = 0; t < kFrames; ++t) motion_[0].frames[t].root_position.x() += 0.002 * t;
   subject_.contacts[0] = {{Node(0, "left_toe"), 2, 5}};
-  const FrameSeries s = Run();
+  const FrameMetrics s = Run();
   for (int t = 0; t < kFrames; ++t) {
     EXPECT_NEAR(s.foot_speed[0][t], t > 2 && t <= 5 ? 0.06 : 0, 1e-12) << t;
     EXPECT_EQ(s.foot_speed[1][t], 0);
@@ -149,7 +149,7 @@ TEST_F(SeriesTest, TrackingIsTheTurnOfEachJoint) {
     motion_[0].frames[t].rotation[elbow] = Turn(0, 5.0 * t, 0);
     motion_[0].frames[t].rotation[0] = Turn(10, 20, 30);
   }
-  const FrameSeries s = Run();
+  const FrameMetrics s = Run();
   const std::vector<int> joints = TrackedJoints(subject_.body[0]);
   ASSERT_EQ(joints.size(), 18u);
   ASSERT_EQ(s.tracking_deg[0].size(), 18u);
@@ -174,7 +174,7 @@ TEST_F(SeriesTest, AForearmThroughAForearmIsNamedInItsFrame) {
     pose.root_position +=
         middle(0, source_[0].frames[0]) + Vec3(0, 0.056 - 0.01 * t, 0) - middle(1, pose);
   }
-  const FrameSeries s = Run();
+  const FrameMetrics s = Run();
   ASSERT_EQ(s.pass_throughs.size(), 1u);
   EXPECT_EQ(s.pass_throughs[0].frame, 5);
   EXPECT_EQ(s.pass_throughs[0].node_a, Node(0, "left_wrist"));
@@ -184,45 +184,45 @@ TEST_F(SeriesTest, AForearmThroughAForearmIsNamedInItsFrame) {
 TEST(Series, ExtremesAreTheMetrics) {
   // A scene with everything in it, moved about: no frame is perfect.
   const Scene scene = SmallScene(25, 0.3);
-  const MeasureSubject subject = SubjectOf(scene);
+  const MetricsContext subject = MetricsContextOf(scene);
   std::array<Clip, 2> moved = scene.source;
   for (int f = 0; f < 2; ++f) {
     moved[f] = Fidget(scene.body[f], scene.posture.pose[f], 25, 30, 31 + f, 0.3);
     for (Pose& pose : moved[f].frames) pose.root_position.y() -= 0.05;
   }
   const MotionView source = ViewOf(scene.body, scene.source), motion = ViewOf(scene.body, moved);
-  const FrameSeries s = MeasureSeries(subject, motion, source);
+  const FrameMetrics s = MeasureFrames(subject, motion, source);
   const Metrics m = Measure(subject, motion, source);
 
   const auto largest = [&](auto value) {
     double out = 0;
-    for (const InstantValues& at : s.at) out = std::max(out, value(at));
+    for (const InstantMetrics& at : s.at) out = std::max(out, value(at));
     return out;
   };
   const auto largest_of_all = [&](auto value) {
     double out = largest(value);
-    for (const InstantValues& between : s.between) out = std::max(out, value(between));
+    for (const InstantMetrics& between : s.between) out = std::max(out, value(between));
     return out;
   };
-  const auto depth = [](const InstantValues& v) { return v.penetration.depth_m; };
+  const auto depth = [](const InstantMetrics& v) { return v.penetration.depth_m; };
   EXPECT_EQ(m.penetration_m, largest(depth));
   EXPECT_EQ(m.penetration_between_m, largest_of_all(depth));
   EXPECT_GT(m.penetration_m, 0);
   ASSERT_FALSE(subject.tangles.empty());
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
     double least = 1e9;
-    for (const InstantValues& at : s.at) least = std::min(least, at.gli[k]);
+    for (const InstantMetrics& at : s.at) least = std::min(least, at.gli[k]);
     EXPECT_EQ(m.tangles[k].min_signed_gli, least);
     EXPECT_EQ(s.at[m.tangles[k].worst_frame].gli[k], least);
   }
   for (size_t k = 0; k < subject.holds.size(); ++k) {
-    EXPECT_EQ(m.hold_m[k], largest_of_all([k](const InstantValues& v) { return v.hold_m[k]; }));
+    EXPECT_EQ(m.hold_m[k], largest_of_all([k](const InstantMetrics& v) { return v.hold_m[k]; }));
   }
   for (int f = 0; f < 2; ++f) {
-    const auto floor = [f](const InstantValues& v) { return v.figure[f].floor_m; };
+    const auto floor = [f](const InstantMetrics& v) { return v.figure[f].floor_m; };
     EXPECT_EQ(m.figure[f].floor_m, largest_of_all(floor));
     EXPECT_GT(m.figure[f].floor_m, 0.01);
-    EXPECT_EQ(m.figure[f].self_penetration_m, largest([f](const InstantValues& v) {
+    EXPECT_EQ(m.figure[f].self_penetration_m, largest([f](const InstantMetrics& v) {
                 return v.figure[f].self_penetration.depth_m;
               }));
     EXPECT_EQ(m.figure[f].foot_speed_max,

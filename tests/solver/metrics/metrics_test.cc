@@ -42,7 +42,7 @@ class MeasureTest : public testing::Test {
     return Measure(subject_, ViewOf(subject_.body, motion_), ViewOf(subject_.body, source_));
   }
 
-  MeasureSubject subject_;
+  MetricsContext subject_;
   std::array<Pose, 2> standing_;
   std::array<Clip, 2> source_, motion_;
 };

@@ -47,7 +47,7 @@ class MetricsTableTest : public testing::Test {
     return {};
   }
 
-  solver::MeasureSubject subject_;
+  solver::MetricsContext subject_;
   solver::Metrics source_, baseline_, result_;
 };
 

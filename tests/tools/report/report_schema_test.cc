@@ -108,7 +108,7 @@ std::set<std::string> RealKeys() {
   // What the example does not show, by the functions that write it: a pass-through, a hold to the
   // world.
   const solver::Scene scene = solver::SmallScene(4, 0.1);
-  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  const solver::MetricsContext subject = solver::MetricsContextOf(scene);
   const solver::MotionView motion = solver::ViewOf(scene.body, scene.source);
   solver::Metrics metrics = solver::Measure(subject, motion, motion);
   metrics.pass_throughs = {{1, 2, 3}};
@@ -191,13 +191,13 @@ TEST(ReportSchema, RealReportsFollowTheJsonSchema) {
 // body.
 TEST(ReportSchema, TheSubjectIsReadBack) {
   const solver::Scene scene = solver::SmallScene(6, 0.1);
-  const solver::MeasureSubject subject = solver::SubjectOf(scene);
+  const solver::MetricsContext subject = solver::MetricsContextOf(scene);
   const solver::MotionView motion = solver::ViewOf(scene.body, scene.source);
   const Json json = SubjectJson(subject, solver::Measure(subject, motion, motion));
   Json old = json;
   for (const char* figure : {"a", "b"}) old["bodies"][figure].erase("nodes");
   for (const Json& report : {json, old}) {
-    const solver::MeasureSubject read = SubjectFromJson(report, "r.json");
+    const solver::MetricsContext read = SubjectFromJson(report, "r.json");
     for (int f = 0; f < 2; ++f) {
       ASSERT_EQ(read.body[f].num_nodes(), subject.body[f].num_nodes());
       for (int n = 0; n < subject.body[f].num_nodes(); ++n) {
@@ -218,7 +218,7 @@ TEST(ReportSchema, TheSubjectIsReadBack) {
       {{"name", "left_finger"}, {"parent", "left_hand"}, {"link", "left_finger"}});
   longer["bodies"]["a"]["radius"]["left_finger"] = 0.01;
   longer["bodies"]["a"]["length"]["left_finger"] = 0.04;
-  const solver::MeasureSubject grown = SubjectFromJson(longer, "r.json");
+  const solver::MetricsContext grown = SubjectFromJson(longer, "r.json");
   EXPECT_EQ(grown.body[0].num_nodes(), subject.body[0].num_nodes() + 1);
   EXPECT_EQ(grown.length[0].back(), 0.04);
   EXPECT_EQ(solver::TrackedJoints(grown.body[0]).size(),

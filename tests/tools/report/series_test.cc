@@ -12,20 +12,21 @@ constexpr int kFrames = 12;
 
 class SeriesJsonTest : public testing::Test {
  protected:
-  SeriesJsonTest() : scene_(solver::SmallScene(kFrames, 0.3)), subject_(solver::SubjectOf(scene_)) {
+  SeriesJsonTest()
+      : scene_(solver::SmallScene(kFrames, 0.3)), subject_(solver::MetricsContextOf(scene_)) {
     std::array<Clip, 2> moved;
     for (int f = 0; f < 2; ++f) {
       moved[f] = solver::Fidget(scene_.body[f], scene_.posture.pose[f], kFrames, 30, 31 + f, 0.3);
     }
     const solver::MotionView source = solver::ViewOf(scene_.body, scene_.source);
-    source_ = solver::MeasureSeries(subject_, source, source);
-    result_ = solver::MeasureSeries(subject_, solver::ViewOf(scene_.body, moved), source);
+    source_ = solver::MeasureFrames(subject_, source, source);
+    result_ = solver::MeasureFrames(subject_, solver::ViewOf(scene_.body, moved), source);
     result_.pass_throughs = {{3, 5, 6}};
   }
 
   solver::Scene scene_;
-  solver::MeasureSubject subject_;
-  solver::FrameSeries source_, result_;
+  solver::MetricsContext subject_;
+  solver::FrameMetrics source_, result_;
 };
 
 TEST_F(SeriesJsonTest, HasEveryCurveInEveryFrame) {
