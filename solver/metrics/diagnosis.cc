@@ -64,24 +64,24 @@ Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
   return out;
 }
 
-std::vector<std::string> Conflict::terms() const {
+std::vector<std::string> Diagnosis::terms() const {
   std::vector<std::string> terms;
   if (!TermOf(check.kind).empty()) terms.push_back(TermOf(check.kind));
   if (opposition.opposed()) terms.push_back(opposition.shares[0].term);
   return terms;
 }
 
-std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unknowns,
-                                    const MetricsContext& subject, const Metrics& metrics,
-                                    const std::vector<RequirementCheck>& checks) {
-  std::vector<Conflict> conflicts;
+std::vector<Diagnosis> Diagnose(const Problem& problem, const Unknowns& unknowns,
+                                const MetricsContext& subject, const Metrics& metrics,
+                                const std::vector<RequirementCheck>& checks) {
+  std::vector<Diagnosis> conflicts;
   for (const RequirementCheck& check : checks) {
     if (check.met) continue;
     // The share of deep frames says nothing that the deepest does not.
     const bool told = check.kind == RequirementKind::kPenetrationOver1cm && !conflicts.empty() &&
                       conflicts.back().check.kind == RequirementKind::kPenetration;
     if (told) continue;
-    Conflict conflict;
+    Diagnosis conflict;
     conflict.check = check;
     conflict.opposition = OppositionTo(problem, unknowns, check);
     const Opposition& o = conflict.opposition;

@@ -84,7 +84,7 @@ struct Reach {
   double reach_m = 0;                                // of the bodies between them, stretched
 };
 
-struct Conflict {
+struct Diagnosis {
   RequirementCheck check;  // that is missed
   Cause cause = Cause::kUnopposed;
   Opposition opposition;
@@ -100,8 +100,8 @@ struct Conflict {
 };
 
 // One conflict per missed requirement, in the order of the checks.
-std::vector<Conflict> FindConflicts(const Problem& problem, const Unknowns& unknowns,
-                                    const MetricsContext& subject, const Metrics& metrics,
-                                    const std::vector<RequirementCheck>& checks);
+std::vector<Diagnosis> Diagnose(const Problem& problem, const Unknowns& unknowns,
+                                const MetricsContext& subject, const Metrics& metrics,
+                                const std::vector<RequirementCheck>& checks);
 
 }  // namespace retarget::solver

@@ -23,7 +23,7 @@ double UsualWeight(const std::string& term) { return WeightIn(Settings{}, term);
 
 class CauseFinder {
  public:
-  CauseFinder(const ConflictCase& c, Conflict* conflict)
+  CauseFinder(const DiagnosisCase& c, Diagnosis* conflict)
       : c_(c), settings_(c.problem.settings()), conflict_(*conflict), check_(conflict->check) {}
 
   void Run() {
@@ -111,15 +111,15 @@ class CauseFinder {
     return digit * std::ceil(more / digit);
   }
 
-  const ConflictCase& c_;
+  const DiagnosisCase& c_;
   const Settings& settings_;
-  Conflict& conflict_;
+  Diagnosis& conflict_;
   const RequirementCheck& check_;
   const std::string term_ = TermOf(check_.kind);
 };
 
 }  // namespace
 
-void FindCause(const ConflictCase& c, Conflict* conflict) { CauseFinder(c, conflict).Run(); }
+void FindCause(const DiagnosisCase& c, Diagnosis* conflict) { CauseFinder(c, conflict).Run(); }
 
 }  // namespace retarget::solver

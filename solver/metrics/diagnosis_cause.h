@@ -6,7 +6,7 @@
 
 namespace retarget::solver {
 
-struct ConflictCase {
+struct DiagnosisCase {
   const Problem& problem;
   const Unknowns& unknowns;
   const MetricsContext& subject;
@@ -14,10 +14,10 @@ struct ConflictCase {
 };
 
 // Fills cause, suggestion and what belongs to them; `conflict` has its check and opposition.
-void FindCause(const ConflictCase& c, Conflict* conflict);
+void FindCause(const DiagnosisCase& c, Diagnosis* conflict);
 
 // What the clips and the template themselves ask for that no weight can settle: two planted feet in
 // one place, or a hold out of reach of the feet. False where there is no such thing.
-bool FindContradiction(const ConflictCase& c, Conflict* conflict);
+bool FindContradiction(const DiagnosisCase& c, Diagnosis* conflict);
 
 }  // namespace retarget::solver

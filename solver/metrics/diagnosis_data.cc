@@ -9,7 +9,7 @@ namespace retarget::solver {
 namespace {
 
 // Two planted feet in one place.
-bool FindFeet(const ConflictCase& c, Conflict* conflict) {
+bool FindFeet(const DiagnosisCase& c, Diagnosis* conflict) {
   const RequirementCheck& check = conflict->check;
   if (TermOf(check.kind) != "penetration") return false;
   const Scene& scene = c.problem.scene();
@@ -46,7 +46,7 @@ double LengthAlong(const Body& body, const std::vector<double>& length, int from
   return sum;
 }
 
-std::vector<Tie> TiesOf(const ConflictCase& c, const Frame& frame, const HoldPoint& point) {
+std::vector<Tie> TiesOf(const DiagnosisCase& c, const Frame& frame, const HoldPoint& point) {
   if (point.figure == kWorld) return {{point.offset, 0}};
   const Scene& scene = c.problem.scene();
   std::vector<Tie> ties;
@@ -62,7 +62,7 @@ std::vector<Tie> TiesOf(const ConflictCase& c, const Frame& frame, const HoldPoi
 }
 
 // A hold that no pose reaches while the feet stand where they stand.
-bool FindOutOfReach(const ConflictCase& c, Conflict* conflict) {
+bool FindOutOfReach(const DiagnosisCase& c, Diagnosis* conflict) {
   const RequirementCheck& check = conflict->check;
   if (check.kind != RequirementKind::kHold) return false;
   const Hold& hold = c.problem.scene().holds[static_cast<size_t>(check.item)];
@@ -83,7 +83,7 @@ bool FindOutOfReach(const ConflictCase& c, Conflict* conflict) {
 
 }  // namespace
 
-bool FindContradiction(const ConflictCase& c, Conflict* conflict) {
+bool FindContradiction(const DiagnosisCase& c, Diagnosis* conflict) {
   return FindFeet(c, conflict) || FindOutOfReach(c, conflict);
 }
 

@@ -71,7 +71,7 @@ struct Result {
   /// Every requirement with its value, limit, and place of the worst.
   std::vector<solver::RequirementCheck> requirements;
   /// One for each requirement that is missed: what works against it there.
-  std::vector<solver::Conflict> diagnoses;
+  std::vector<solver::Diagnosis> diagnoses;
   /// What a user should know: of the files, the template and the solve; a line each.
   std::vector<std::string> notes;
 
@@ -96,7 +96,7 @@ Result Run(const Request& request, const Progress& progress = {});
 /// What a requirement is called: "tangle 1", "foot drift a".
 std::string RequirementName(const solver::RequirementCheck& requirement);
 /// What is missed where, why, and which option of the program would help, in one sentence.
-std::string DiagnosisText(const solver::Conflict& diagnosis, const Result& result);
+std::string DiagnosisText(const solver::Diagnosis& diagnosis, const Result& result);
 
 /// "0.1.0"
 const char* Version();

@@ -93,9 +93,8 @@ Result RunJob(const Job& job, const Progress& progress) {
   }
   const bool all_met = solver::AllMet(result.requirements);
   if (!all_met) {
-    result.diagnoses =
-        solver::FindConflicts(solver::Problem(scene, settings), result.run.solve.unknowns, subject,
-                              result.metrics, result.requirements);
+    result.diagnoses = solver::Diagnose(solver::Problem(scene, settings), result.run.solve.unknowns,
+                                        subject, result.metrics, result.requirements);
   }
   result.status = StatusOf(result.run.solve.status, all_met);
 
@@ -153,7 +152,7 @@ std::string RequirementName(const solver::RequirementCheck& requirement) {
   return report::NameOf(requirement);
 }
 
-std::string DiagnosisText(const solver::Conflict& diagnosis, const Result& result) {
+std::string DiagnosisText(const solver::Diagnosis& diagnosis, const Result& result) {
   return report::ConflictSentence(diagnosis, solver::MetricsContextOf(result.run.scene));
 }
 

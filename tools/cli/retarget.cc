@@ -112,7 +112,7 @@ int RunRetarget(const RetargetOptions& options) {
   fmt::print("{}",
              report::MetricsTable(solver::MetricsContextOf(result.run.scene), result.source_metrics,
                                   &result.baseline_metrics, result.metrics, result.requirements));
-  for (const solver::Conflict& conflict : result.diagnoses) {
+  for (const solver::Diagnosis& conflict : result.diagnoses) {
     fmt::print("  {}\n", DiagnosisText(conflict, result));
   }
   const solver::SolveResult& solve = result.run.solve;

@@ -16,7 +16,7 @@ constexpr double kAlsoOpposes = 0.2;  // share that is worth a word beside the l
 
 class Sentence {
  public:
-  Sentence(const solver::Conflict& conflict, const solver::MetricsContext& subject)
+  Sentence(const solver::Diagnosis& conflict, const solver::MetricsContext& subject)
       : c_(conflict), check_(conflict.check), subject_(subject) {}
 
   std::string What() const {
@@ -201,7 +201,7 @@ class Sentence {
         world ? "body between them" : "two bodies between them", c_.reach.reach_m);
   }
 
-  const solver::Conflict& c_;
+  const solver::Diagnosis& c_;
   const solver::RequirementCheck& check_;
   const solver::MetricsContext& subject_;
 };
@@ -242,7 +242,7 @@ const char* CauseName(Cause cause) {
   return "";
 }
 
-std::string ConflictSentence(const solver::Conflict& conflict,
+std::string ConflictSentence(const solver::Diagnosis& conflict,
                              const solver::MetricsContext& subject) {
   const Sentence sentence(conflict, subject);
   return NameOf(conflict.check) + ": " + sentence.What() + "; " + sentence.Why();

@@ -10,7 +10,7 @@ namespace retarget::report {
 
 // "flat_tangle": as report.json has it.
 const char* CauseName(solver::Cause cause);
-std::string ConflictSentence(const solver::Conflict& conflict,
+std::string ConflictSentence(const solver::Diagnosis& conflict,
                              const solver::MetricsContext& subject);
 
 }  // namespace retarget::report

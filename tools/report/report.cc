@@ -97,10 +97,10 @@ Json ThreeMetricsJson(const solver::MetricsContext& subject, const solver::Metri
           {"result", MetricsJson(subject, result)}};
 }
 
-Json ConflictsJson(const std::vector<solver::Conflict>& conflicts,
+Json ConflictsJson(const std::vector<solver::Diagnosis>& conflicts,
                    const solver::MetricsContext& subject) {
   Json out = Json::array();
-  for (const solver::Conflict& c : conflicts) {
+  for (const solver::Diagnosis& c : conflicts) {
     Json limbs = Json::array();
     for (const solver::LimbNode& limb : c.check.limbs) {
       limbs.push_back(LimbName(limb, subject.body));

@@ -18,7 +18,7 @@ struct Solved {
   MetricsContext subject;
   Metrics metrics;
   std::vector<RequirementCheck> checks;
-  std::vector<Conflict> conflicts;
+  std::vector<Diagnosis> conflicts;
 
   Solved(const Scene& s, const Settings& with) : scene(s), settings(with) {
     problem = std::make_unique<Problem>(scene, settings);
@@ -27,11 +27,11 @@ struct Solved {
     const std::array<Clip, 2> solved = EditedClips(scene, unknowns);
     metrics = Measure(subject, ViewOf(scene.body, solved), ViewOf(scene.body, scene.source));
     checks = CheckRequirements(subject, metrics, settings.requirements);
-    conflicts = FindConflicts(*problem, unknowns, subject, metrics, checks);
+    conflicts = Diagnose(*problem, unknowns, subject, metrics, checks);
   }
   // About a hold, from 0.
-  const Conflict& OfHold(int k) const {
-    for (const Conflict& c : conflicts) {
+  const Diagnosis& OfHold(int k) const {
+    for (const Diagnosis& c : conflicts) {
       if (c.check.kind == RequirementKind::kHold && c.check.item == k) return c;
     }
     throw std::runtime_error("no conflict about hold " + std::to_string(k));
@@ -72,9 +72,9 @@ class MissTest : public testing::Test {
     metrics_ =
         Measure(subject_, ViewOf(scene_.body, scene_.source), ViewOf(scene_.body, scene_.source));
   }
-  Conflict ConflictAbout(const RequirementCheck& check, const Settings& settings = {}) const {
+  Diagnosis ConflictAbout(const RequirementCheck& check, const Settings& settings = {}) const {
     const Problem problem(scene_, settings);
-    return FindConflicts(problem, unknowns_, subject_, metrics_, {check}).at(0);
+    return Diagnose(problem, unknowns_, subject_, metrics_, {check}).at(0);
   }
   int Node(int f, const char* name) const { return scene_.body[f].FindNode(name); }
 

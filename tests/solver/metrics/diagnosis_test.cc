@@ -82,10 +82,10 @@ TEST(TermGradient, CoordinatesAreTheRootsAndTheJointsUpToTheNode) {
   EXPECT_EQ(CoordinatesOf(locked, {{1, body.FindNode("left_toe")}}).size(), expected.size() - 3);
 }
 
-TEST(Conflict, TwoHoldsThatPullOneHandApart) {
+TEST(Diagnosis, TwoHoldsThatPullOneHandApart) {
   const Solved s(HandTo({Vec3(0, 0.2, -0.1), Vec3(0, -0.2, 0.1)}), {});
   for (const int k : {0, 1}) {
-    const Conflict& c = s.OfHold(k);
+    const Diagnosis& c = s.OfHold(k);
     EXPECT_EQ(c.cause, Cause::kSameTerm);
     ASSERT_EQ(c.terms(), (std::vector<std::string>{"hold", "hold"}));
     EXPECT_LT(c.opposition.shares[0].cosine, -0.95);
@@ -98,11 +98,11 @@ TEST(Conflict, TwoHoldsThatPullOneHandApart) {
   }
 }
 
-TEST(Conflict, AHoldFarAwayAgainstPlantedFeet) {
+TEST(Diagnosis, AHoldFarAwayAgainstPlantedFeet) {
   // The hand is to be 3 m higher; the feet are planted, the rest is nearly free. (To the side, the
   // footprints could go along.)
   const Solved s(HandTo({Vec3(0, 3, 0)}), PlantedSettings());
-  const Conflict& c = s.OfHold(0);
+  const Diagnosis& c = s.OfHold(0);
   ASSERT_EQ(c.terms(), (std::vector<std::string>{"hold", "foot_lock"}));
   EXPECT_EQ(c.cause, Cause::kHoldOutOfReach);
   ASSERT_TRUE(c.opposing_foot);
@@ -123,7 +123,7 @@ TEST(Conflict, AHoldFarAwayAgainstPlantedFeet) {
   EXPECT_LT(cosine, -0.3);
 }
 
-TEST(Conflict, AFeebleWeightIsNamedWithItsDefault) {
+TEST(Diagnosis, AFeebleWeightIsNamedWithItsDefault) {
   Settings settings;
   settings.weights.hold = 0.1;
   const Solved feeble(HandTo({Vec3(0, 0.15, 0)}), settings);
@@ -141,7 +141,7 @@ TEST(Conflict, AFeebleWeightIsNamedWithItsDefault) {
   }
 }
 
-TEST(Conflict, TheSuggestedWeightHelps) {
+TEST(Diagnosis, TheSuggestedWeightHelps) {
   Settings settings = StiffSettings();
   const Scene scene = HandTo({Vec3(0.1, 0.3, 0)});
   const Solved before(scene, settings);
@@ -154,13 +154,13 @@ TEST(Conflict, TheSuggestedWeightHelps) {
   EXPECT_LT(after.metrics.hold_m[0], 0.5 * before.metrics.hold_m[0]);
 }
 
-TEST(Conflict, NoneWhereEverythingIsMet) {
+TEST(Diagnosis, NoneWhereEverythingIsMet) {
   const Solved s(HandTo({Vec3::Zero()}), {});
   EXPECT_TRUE(s.conflicts.empty());
 }
 
 TEST_F(MissTest, TwoPlantedFeetInOnePlace) {
-  const Conflict c = ConflictAbout(FeetInOnePlace());
+  const Diagnosis c = ConflictAbout(FeetInOnePlace());
   EXPECT_EQ(c.cause, Cause::kFeetInOnePlace);
   ASSERT_EQ(c.feet.size(), 2u);
   for (int f = 0; f < 2; ++f) {
@@ -172,10 +172,10 @@ TEST_F(MissTest, TwoPlantedFeetInOnePlace) {
 }
 
 TEST_F(MissTest, RequirementsThatNoTermServes) {
-  const Conflict pass = ConflictAbout(PassThroughs());
+  const Diagnosis pass = ConflictAbout(PassThroughs());
   EXPECT_EQ(pass.cause, Cause::kPassThrough);
   EXPECT_EQ(pass.pass_throughs, 2);
-  const Conflict written = ConflictAbout(WriteBack());
+  const Diagnosis written = ConflictAbout(WriteBack());
   EXPECT_EQ(written.cause, Cause::kNoTerm);
   EXPECT_TRUE(written.terms().empty() && written.check.limbs.empty());
   EXPECT_EQ(written.check.frame, -1);
@@ -183,7 +183,7 @@ TEST_F(MissTest, RequirementsThatNoTermServes) {
 
 TEST_F(MissTest, ATagThatAimsTooLowOrHasComeApart) {
   RequirementCheck check = TagFarAway();
-  const Conflict flat = ConflictAbout(check);
+  const Diagnosis flat = ConflictAbout(check);
   EXPECT_EQ(flat.cause, Cause::kFlatTangle);
   EXPECT_LT(flat.gli_slope, 0.05);
   subject_.tangles[0].target = 0.45;
@@ -191,7 +191,7 @@ TEST_F(MissTest, ATagThatAimsTooLowOrHasComeApart) {
   EXPECT_EQ(ConflictAbout(check).cause, Cause::kLooseTemplate);
   subject_.tangles[0].tag.tangle.gli = -0.97;
   check.limit = 0.6;
-  const Conflict low = ConflictAbout(check);
+  const Diagnosis low = ConflictAbout(check);
   EXPECT_EQ(low.cause, Cause::kLowTarget);
   ASSERT_TRUE(low.suggestion);
   EXPECT_EQ(low.suggestion->setting, "tangle.margin");
