@@ -58,9 +58,9 @@ class BandedStage {
         trial_terms_(accepted_.size()),
         accepted_cost_(accepted_.size()),
         trial_cost_(accepted_.size()),
-        move_(accepted_.size()),
+        displacement_(accepted_.size()),
         tunnelled_(accepted_.size()),
-        caution_(VecX::Ones(scene_.num_frames())) {}
+        frame_damping_(VecX::Ones(scene_.num_frames())) {}
 
   SolveStatus Run() {
     const SolveSettings& settings = problem_.settings().solve;
@@ -76,7 +76,7 @@ class BandedStage {
       }
       Unknowns next;
       double next_cost = cost;
-      if (!SolveLinear(result_->unknowns, damping) || !Shorten(cost, &next, &next_cost)) {
+      if (!SolveLinear(result_->unknowns, damping) || !Backtrack(cost, &next, &next_cost)) {
         damping *= kStiffenRejected;
         if (++rejected > kMostRejections || damping > kMostDamping) {
           result_->stalled = true;
@@ -88,22 +88,22 @@ class BandedStage {
       ++iterations;
       ++result_->iterations;
       const double decrease = (cost - next_cost) / cost;
-      const bool whole = share_.minCoeff() == 1;
+      const bool whole = step_length_.minCoeff() == 1;
       if (whole) {
         const double gain = (cost - next_cost) / std::max(PredictedDecrease(damping), 1e-300);
         damping *= std::clamp(1 - std::pow(2 * gain - 1, 3), kEase, kStiffen);
         damping = std::max(damping, kLeastDamping);
       }
       // Frames whose step was shortened are damped in the next one, the others less and less.
-      caution_ = (kForget * caution_).cwiseMax(share_.array().pow(-2).matrix());
+      frame_damping_ = (kForget * frame_damping_).cwiseMax(step_length_.array().pow(-2).matrix());
       Iteration iteration;
-      iteration.step_m = *std::max_element(move_.begin(), move_.end());
+      iteration.step_m = *std::max_element(displacement_.begin(), displacement_.end());
       result_->unknowns = std::move(next);
       cost = next_cost;
       Accept();
       if (!Report(cost, &iteration)) return SolveStatus::kInterrupted;
       // A step that was held short says nothing about convergence.
-      const bool free = share_.mean() > kFreeShare && damping < kFreeDamping;
+      const bool free = step_length_.mean() > kFreeShare && damping < kFreeDamping;
       flat = free && decrease < context_.tolerance ? flat + 1 : 0;
       if (flat >= 2) return SolveStatus::kConverged;
     }
@@ -121,7 +121,7 @@ class BandedStage {
     ++result_->linear_solves;
     return system_.Solve(
         [&](int t, int thread, FrameBlock* block) { Assemble(x, t, thread, block); },
-        damping * caution_, threads_, &step_);
+        damping * frame_damping_, threads_, &step_);
   }
 
   // What the linear model gains by the whole step: with (H + damping D) s = -g,
@@ -131,7 +131,7 @@ class BandedStage {
     for (int t = 0; t < scene_.num_frames(); ++t) {
       const auto s = step_.frames.col(t).array();
       slope -= (s * step_.gradient.col(t).array()).sum();
-      damped += damping * caution_[t] * (s * s * step_.diagonal.col(t).array()).sum();
+      damped += damping * frame_damping_[t] * (s * s * step_.diagonal.col(t).array()).sum();
     }
     return 0.5 * (slope + damped);
   }
@@ -139,22 +139,22 @@ class BandedStage {
   // Finds the share of the step that each frame can take: no node too far, no limb through a limb,
   // and less cost in all. Frames that cannot take all of it are held back with their neighbours,
   // evenly, and the rest of the clip goes on. False where no share will do.
-  bool Shorten(double cost, Unknowns* next, double* next_cost) {
+  bool Backtrack(double cost, Unknowns* next, double* next_cost) {
     const double limit = problem_.settings().solve.step_limit_m;
     const int n = scene_.num_frames();
-    share_ = VecX::Ones(n);
+    step_length_ = VecX::Ones(n);
     for (int attempt = 0; attempt < kShortenings; ++attempt) {
       *next = result_->unknowns;
-      next->edit += step_.frames * share_.asDiagonal();
+      next->edit += step_.frames * step_length_.asDiagonal();
       for (size_t k = 0; k < spans_.size(); ++k) {
         const int first = spans_[k].first, length = spans_[k].last - first + 1;
-        next->anchor.col(k) += share_.segment(first, length).mean() * step_.anchors.col(k);
+        next->anchor.col(k) += step_length_.segment(first, length).mean() * step_.anchors.col(k);
       }
       *next_cost = EvaluateTrial(*next);
       VecX factor = VecX::Ones(n);
       bool sound = true;
       for (int t = 0; t < n; ++t) {
-        if (move_[t] > limit) factor[t] = kWithinLimit * limit / move_[t];
+        if (displacement_[t] > limit) factor[t] = kWithinLimit * limit / displacement_[t];
         if (tunnelled_[t]) factor[t] = std::min(factor[t], kTunnelled);
         sound = sound && factor[t] == 1;
       }
@@ -167,9 +167,11 @@ class BandedStage {
           if (trial_cost_[t] - accepted_cost_[t] > kToBlame * worst) factor[t] = kCostly;
         }
       }
-      share_ = share_.cwiseProduct(factor);
-      for (int t = 1; t < n; ++t) share_[t] = std::min(share_[t], share_[t - 1] + kShareSlope);
-      for (int t = n - 2; t >= 0; --t) share_[t] = std::min(share_[t], share_[t + 1] + kShareSlope);
+      step_length_ = step_length_.cwiseProduct(factor);
+      for (int t = 1; t < n; ++t)
+        step_length_[t] = std::min(step_length_[t], step_length_[t - 1] + kShareSlope);
+      for (int t = n - 2; t >= 0; --t)
+        step_length_[t] = std::min(step_length_[t], step_length_[t + 1] + kShareSlope);
     }
     return false;
   }
@@ -185,7 +187,7 @@ class BandedStage {
                                           &trial_terms_[t]);
       for (int f = 0; f < 2; ++f) trial_[t][f] = frame.posed[f].node;
       if (accepted_[t][0].empty()) return;
-      move_[t] = LargestDisplacement(accepted_[t], trial_[t]);
+      displacement_[t] = LargestDisplacement(accepted_[t], trial_[t]);
       tunnelled_[t] = LargestGliJump(scene_.body, accepted_[t], trial_[t], kGuardReach).size > jump;
     });
     double sum = 0;
@@ -227,10 +229,10 @@ class BandedStage {
   std::vector<NodePositions> accepted_, trial_;
   std::vector<std::vector<double>> accepted_terms_, trial_terms_;  // costs, per frame and term
   std::vector<double> accepted_cost_, trial_cost_;
-  std::vector<double> move_;  // of the last trial, per frame (m)
+  std::vector<double> displacement_;  // of the last trial, per frame (m)
   std::vector<char> tunnelled_;
-  VecX caution_;  // factor of the damping, per frame
-  VecX share_;    // of the last step, per frame
+  VecX frame_damping_;  // factor of the damping, per frame
+  VecX step_length_;    // of the last step, per frame
 };
 
 }  // namespace
