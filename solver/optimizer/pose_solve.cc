@@ -15,8 +15,8 @@ namespace {
 
 // A target counts as reached from here on (m).
 constexpr double kReached = 0.01;
-// The lead of a target (PoseSettings::lead_m) is halved where a solve gains less than this share of
-// it, down to the least: as short as a way that counts as reached.
+// The lead of a target (PoseSettings::max_target_step_m) is halved where a solve gains less than
+// this share of it, down to the least: as short as a way that counts as reached.
 constexpr double kLeastGainOfLead = 0.02;
 constexpr double kLeastLead = kReached;  // m
 constexpr double kLeastGain = 1e-4;      // m of all drags together: less is no progress
@@ -77,7 +77,7 @@ Errors ErrorsOf(const Bodies& posed, const std::vector<NodeTarget>& targets,
 }
 
 // Targets no further than `lead` from where their nodes are.
-PoseTask Led(const PoseTask& task, const Bodies& posed, double lead) {
+PoseTask ClampedTarget(const PoseTask& task, const Bodies& posed, double lead) {
   PoseTask led = task;
   const auto shortened = [&](const Vec3& v) -> Vec3 {
     return v * std::min(1.0, lead / std::max(v.norm(), 1e-12));
@@ -171,7 +171,7 @@ PoseResult SolvePose(const PoseTask& task, const Poses& start, const PoseSetting
   result.pose = start;
   Bodies posed = Posed(task, start);
   Errors errors = ErrorsOf(posed, task.drags, task.drag_rays);
-  double lead = settings.lead_m;
+  double lead = settings.max_target_step_m;
   const bool timed = settings.max_seconds > 0;
   while (result.iterations < settings.max_iterations && !result.converged) {
     const double left = settings.max_seconds - (SecondsNow() - started);
@@ -181,7 +181,7 @@ PoseResult SolvePose(const PoseTask& task, const Poses& start, const PoseSetting
                                     led ? kIterationsLed : kIterationsPerSolve);
     Poses next;
     const SolveResult solved =
-        SolveOnce(Led(task, posed, lead), result.pose, iterations,
+        SolveOnce(ClampedTarget(task, posed, lead), result.pose, iterations,
                   timed ? std::max(left, kLeastSeconds) : 0, settings, &next);
     result.iterations += std::max(solved.iterations, 1);
     const Bodies next_posed = Posed(task, next);

@@ -34,11 +34,11 @@ struct PoseTask {
 };
 
 struct PoseSettings {
-  Settings settings;     // weights and the solve's; a weight of 0 switches the term off
-  double drag = 60;      // 1/m, weight of drags
-  double pin = 600;      // 1/m, weight of pins
-  double lead_m = 0.10;  // a target draws from no further than this: a far one is approached in
-                         // steps, and one out of reach tears nothing apart
+  Settings settings;                // weights and the solve's; a weight of 0 switches the term off
+  double drag = 60;                 // 1/m, weight of drags
+  double pin = 600;                 // 1/m, weight of pins
+  double max_target_step_m = 0.10;  // a target draws from no further than this: a far one is
+                                    // approached in steps, and one out of reach tears nothing apart
   int max_iterations = 200;
   double max_seconds = 0;  // 0: no limit; else it stops after the iteration that reaches it
 };
