@@ -30,7 +30,7 @@ bool FindFeet(const DiagnosisCase& c, Diagnosis* conflict) {
 }
 
 // Where an end of a hold is tied down: a planted foot, or the world itself.
-struct Tie {
+struct GroundAnchor {
   Vec3 place = Vec3::Zero();
   double reach = 0;  // m, from there to the held point along the stretched body
   std::optional<PlantedFoot> foot = std::nullopt;
@@ -46,10 +46,11 @@ double LengthAlong(const Body& body, const std::vector<double>& length, int from
   return sum;
 }
 
-std::vector<Tie> TiesOf(const DiagnosisCase& c, const Frame& frame, const HoldPoint& point) {
+std::vector<GroundAnchor> GroundAnchorsOf(const DiagnosisCase& c, const Frame& frame,
+                                          const HoldPoint& point) {
   if (point.figure == kWorld) return {{point.offset, 0}};
   const Scene& scene = c.problem.scene();
-  std::vector<Tie> ties;
+  std::vector<GroundAnchor> ties;
   for (const Contact& contact : scene.contacts[point.figure]) {
     if (frame.t < contact.first || frame.t > contact.last) continue;
     ties.push_back(
@@ -69,8 +70,8 @@ bool FindOutOfReach(const DiagnosisCase& c, Diagnosis* conflict) {
   if (hold.from.figure == hold.to.figure) return false;
   Frame frame;
   frame.Set(c.problem.scene(), c.unknowns, check.frame, false);
-  for (const Tie& from : TiesOf(c, frame, hold.from)) {
-    for (const Tie& to : TiesOf(c, frame, hold.to)) {
+  for (const GroundAnchor& from : GroundAnchorsOf(c, frame, hold.from)) {
+    for (const GroundAnchor& to : GroundAnchorsOf(c, frame, hold.to)) {
       const double apart = (from.place - to.place).norm(), reach = from.reach + to.reach;
       if (apart <= reach) continue;
       conflict->cause = Cause::kHoldOutOfReach;

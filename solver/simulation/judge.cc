@@ -33,7 +33,7 @@ std::array<PosedBody, 2> PosedAt(const Scene& scene, const SimulationResult& res
 }
 
 // Lost for good: gone from some frame to either end of the clip.
-void JudgeTags(const Scene& scene, SimulationResult* result) {
+void ClassifyTags(const Scene& scene, SimulationResult* result) {
   const int least = static_cast<int>(std::ceil(kLostTime * scene.fps()));
   for (const TangleTarget& held : scene.tangles) {
     const auto lost_at = [&](int t) {
@@ -60,7 +60,7 @@ void JudgeTags(const Scene& scene, SimulationResult* result) {
   }
 }
 
-void JudgePassThroughs(const Scene& scene, SimulationResult* result) {
+void ClassifyPassThroughs(const Scene& scene, SimulationResult* result) {
   std::array<PosedBody, 2> before = PosedAt(scene, *result, 0);
   for (int t = 1; t < scene.num_frames(); ++t) {
     const std::array<PosedBody, 2> now = PosedAt(scene, *result, t);
@@ -78,7 +78,7 @@ void JudgePassThroughs(const Scene& scene, SimulationResult* result) {
 }
 
 // A figure that stumbled and is dragged along shows nothing of its motion: no start for a solve.
-void JudgeStray(const Stray& stray, SimulationResult* result) {
+void ClassifyStray(const Stray& stray, SimulationResult* result) {
   if (stray.share < kTrackingLost) return;
   char text[100];
   std::snprintf(text, sizeof text, "%s strayed %.2f m from its way at frame %d",
@@ -88,16 +88,16 @@ void JudgeStray(const Stray& stray, SimulationResult* result) {
 
 }  // namespace
 
-void JudgeSimulation(const Scene& scene, const Stray& stray, SimulationResult* result) {
+void ClassifySimulation(const Scene& scene, const Stray& stray, SimulationResult* result) {
   const auto fine = [&] { return result->status == SimulationStatus::kCompleted; };
   if (!fine()) {
     result->message += "; " + std::to_string(result->frames_simulated) + " of " +
                        std::to_string(scene.num_frames()) + " frames were simulated";
     return;
   }
-  JudgeTags(scene, result);
-  if (fine()) JudgePassThroughs(scene, result);
-  if (fine()) JudgeStray(stray, result);
+  ClassifyTags(scene, result);
+  if (fine()) ClassifyPassThroughs(scene, result);
+  if (fine()) ClassifyStray(stray, result);
   if (fine()) result->message = "it ran to the end";
 }
 

@@ -14,6 +14,6 @@ struct Stray {
 
 // Sets status and message of a result whose other members are complete; one that broke off keeps
 // its status.
-void JudgeSimulation(const Scene& scene, const Stray& stray, SimulationResult* result);
+void ClassifySimulation(const Scene& scene, const Stray& stray, SimulationResult* result);
 
 }  // namespace retarget::solver

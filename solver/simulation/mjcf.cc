@@ -68,7 +68,7 @@ std::string LinkTree(const PhysicsFigure& figure, int index, int link,
   return out + "</body>\n";
 }
 
-std::string TieElement(const Tie& tie, int index, const PhysicsOptions& options) {
+std::string TieElement(const EqualityConstraint& tie, int index, const PhysicsOptions& options) {
   std::string out = tie.rotation ? "<weld" : "<connect";
   out += Attribute("name", TieName(index)) + Attribute("active", "false");
   out += Attribute("body1", LinkName(tie.figure, tie.link));
@@ -85,8 +85,8 @@ std::string LinkName(int figure, int link) {
 
 std::string TieName(int tie) { return "tie" + std::to_string(tie); }
 
-std::string FormatMjcf(const std::vector<PhysicsFigure>& figures, const std::vector<Tie>& ties,
-                       const PhysicsOptions& options) {
+std::string FormatMjcf(const std::vector<PhysicsFigure>& figures,
+                       const std::vector<EqualityConstraint>& ties, const PhysicsOptions& options) {
   std::string out =
       "<mujoco>\n<compiler angle=\"radian\" boundmass=\"1e-3\" boundinertia=\"1e-6\"/>";
   out += "\n<option integrator=\"Euler\"" + Attribute("timestep", Number(options.time_step)) +

@@ -23,8 +23,9 @@ struct PhysicsOptions {
 };
 
 // A tie holds a point of a link on a point of another link, or of the world; with `rotation` also
-// the relative turn of the two. Ties are declared with the model and can be fastened and let go.
-struct Tie {
+// the relative turn of the two. EqualityConstraints are declared with the model and can be fastened
+// and let go.
+struct EqualityConstraint {
   int figure = 0, link = 0;
   int to_figure = -1, to_link = 0;  // -1: the world
   bool rotation = false;
@@ -44,7 +45,7 @@ std::string TieName(int tie);
 
 // A free joint for each root and a ball joint for every other link, in links' order; one capsule
 // per segment with the segment's mass, rigid in the link that carries the segment's outer node.
-std::string FormatMjcf(const std::vector<PhysicsFigure>& figures, const std::vector<Tie>& ties,
-                       const PhysicsOptions& options);
+std::string FormatMjcf(const std::vector<PhysicsFigure>& figures,
+                       const std::vector<EqualityConstraint>& ties, const PhysicsOptions& options);
 
 }  // namespace retarget::solver

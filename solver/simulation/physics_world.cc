@@ -20,7 +20,7 @@ void TakeOverMessages() {
   static std::once_flag once;
   std::call_once(once, [] {
     mju_user_error = Throw;
-    mju_user_warning = [](const char*) {};  // counted in mjData::warning, see Sound()
+    mju_user_warning = [](const char*) {};  // counted in mjData::warning, see IsStable()
   });
 }
 
@@ -92,7 +92,8 @@ struct PhysicsWorld::Engine {
   }
 };
 
-PhysicsWorld::PhysicsWorld(const std::vector<PhysicsFigure>& figures, const std::vector<Tie>& ties,
+PhysicsWorld::PhysicsWorld(const std::vector<PhysicsFigure>& figures,
+                           const std::vector<EqualityConstraint>& ties,
                            const PhysicsOptions& options)
     : engine_(std::make_unique<Engine>()) {
   for (const PhysicsFigure& figure : figures) engine_->body.push_back(figure.body);
@@ -158,7 +159,7 @@ Vec3 PhysicsWorld::JointVelocity(int figure, int link) const {
   return VectorAt(engine_->data->qvel + at);
 }
 
-void PhysicsWorld::Locate() {
+void PhysicsWorld::UpdateKinematics() {
   mj_kinematics(engine_->model.get(), engine_->data.get());
   mj_comPos(engine_->model.get(), engine_->data.get());
 }
@@ -178,7 +179,8 @@ PosedBody PhysicsWorld::Posed(int figure) const {
   return posed;
 }
 
-void PhysicsWorld::Fasten(int tie, const Vec3& point, const Vec3& to_point, const Quat& relative) {
+void PhysicsWorld::EnableEquality(int tie, const Vec3& point, const Vec3& to_point,
+                                  const Quat& relative) {
   const Engine& e = *engine_;
   const int id = e.tie[tie];
   mjtNum* value = e.model->eq_data + mjNEQDATA * id;
@@ -194,7 +196,7 @@ void PhysicsWorld::Fasten(int tie, const Vec3& point, const Vec3& to_point, cons
   e.model->eq_active[id] = 1;
 }
 
-void PhysicsWorld::Release(int tie) { engine_->model->eq_active[engine_->tie[tie]] = 0; }
+void PhysicsWorld::DisableEquality(int tie) { engine_->model->eq_active[engine_->tie[tie]] = 0; }
 
 void PhysicsWorld::BeginStep() {
   mju_zero(engine_->data->qfrc_applied, engine_->model->nv);
@@ -237,7 +239,7 @@ Vec3 PhysicsWorld::AngularMomentum() const {
 
 double PhysicsWorld::Mass() const { return mj_getTotalmass(engine_->model.get()); }
 
-bool PhysicsWorld::Sound() const {
+bool PhysicsWorld::IsStable() const {
   const mjData& d = *engine_->data;
   for (const int kind : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
     if (d.warning[kind].number > 0) return false;

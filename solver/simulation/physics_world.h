@@ -15,8 +15,8 @@ namespace retarget::solver {
 // axes. The same calls give the same motion, bit for bit.
 class PhysicsWorld {
  public:
-  PhysicsWorld(const std::vector<PhysicsFigure>& figures, const std::vector<Tie>& ties,
-               const PhysicsOptions& options);
+  PhysicsWorld(const std::vector<PhysicsFigure>& figures,
+               const std::vector<EqualityConstraint>& ties, const PhysicsOptions& options);
   ~PhysicsWorld();
   PhysicsWorld(PhysicsWorld&&) noexcept;
 
@@ -30,15 +30,15 @@ class PhysicsWorld {
   Vec3 RootVelocity(int figure) const;
   Vec3 JointVelocity(int figure, int link) const;
 
-  // Where the engine has every link and node, at the last BeginStep or Locate.
-  void Locate();
+  // Where the engine has every link and node, at the last BeginStep or UpdateKinematics.
+  void UpdateKinematics();
   PosedBody Posed(int figure) const;
 
   // Fastens a tie: `point` in the link's frame to `to_point` in the other's (or the world's);
   // `relative` is the first link's turn in the second's frame.
-  void Fasten(int tie, const Vec3& point, const Vec3& to_point,
-              const Quat& relative = Quat::Identity());
-  void Release(int tie);
+  void EnableEquality(int tie, const Vec3& point, const Vec3& to_point,
+                      const Quat& relative = Quat::Identity());
+  void DisableEquality(int tie);
 
   void BeginStep();
   void AddForce(int figure, int link, const Vec3& world_point, const Vec3& force);  // N, world
@@ -54,7 +54,7 @@ class PhysicsWorld {
   double Mass() const;  // kg, all figures
 
   // False once the engine has met a number that is none, or a speed out of all reason.
-  bool Sound() const;
+  bool IsStable() const;
 
  private:
   struct Engine;

@@ -18,15 +18,15 @@ namespace {
 constexpr double kFallen = 0.35;
 constexpr double kRestTime = 0.1;  // s at rest before the clips begin: one slow step is none
 
-class Run {
+class Simulator {
  public:
-  Run(const Scene& scene, const SimulationSettings& settings)
+  Simulator(const Scene& scene, const SimulationSettings& settings)
       : scene_(scene),
         settings_(settings),
         frame_time_(1 / scene.fps()),
         steps_per_frame_(static_cast<int>(std::ceil(frame_time_ / settings.time_step - 1e-9))),
         control_(scene, settings),
-        world_({control_.FigureOf(0), control_.FigureOf(1)}, Ties(), Options()),
+        world_({control_.FigureOf(0), control_.FigureOf(1)}, EqualityConstraints(), Options()),
         tangle_force_(scene, settings) {
     for (int f = 0; f < 2; ++f) {
       result_.motion[f].fps = scene.fps();
@@ -36,7 +36,7 @@ class Run {
     simulated_.assign(static_cast<size_t>(scene.num_frames()), 0);
   }
 
-  SimulationResult Go() {
+  SimulationResult Run() {
     const double started = SecondsNow();
     for (int f = 0; f < 2; ++f) world_.SetPose(f, scene_.posture.pose[f]);
     FastenHolds();
@@ -50,17 +50,17 @@ class Run {
     }
     result_.frames_simulated =
         static_cast<int>(std::count(simulated_.begin(), simulated_.end(), 1));
-    JudgeSimulation(scene_, stray_, &result_);
+    ClassifySimulation(scene_, stray_, &result_);
     result_.seconds = SecondsNow() - started;
     return std::move(result_);
   }
 
  private:
   // One for every hold, then one for every node that is planted at some time.
-  std::vector<Tie> Ties() {
-    std::vector<Tie> ties;
+  std::vector<EqualityConstraint> EqualityConstraints() {
+    std::vector<EqualityConstraint> ties;
     for (const Hold& hold : scene_.holds) {
-      Tie tie{hold.from.figure, LinkOf(hold.from), -1, 0, hold.rotation};
+      EqualityConstraint tie{hold.from.figure, LinkOf(hold.from), -1, 0, hold.rotation};
       if (hold.to.figure != kWorld) {
         tie.to_figure = hold.to.figure;
         tie.to_link = LinkOf(hold.to);
@@ -104,8 +104,8 @@ class Run {
   void FastenHolds() {
     for (size_t k = 0; k < scene_.holds.size(); ++k) {
       const Hold& hold = scene_.holds[k];
-      world_.Fasten(static_cast<int>(k), InLink(hold.from), InLink(hold.to),
-                    hold.relative_rotation);
+      world_.EnableEquality(static_cast<int>(k), InLink(hold.from), InLink(hold.to),
+                            hold.relative_rotation);
     }
   }
 
@@ -118,10 +118,10 @@ class Run {
         return c.node == foot.node && c.first <= t && t <= c.last;
       });
       if (planted && !foot.planted) {
-        world_.Fasten(foot.tie, scene_.body[foot.figure].nodes[foot.node].offset,
-                      posed_[foot.figure].node[foot.node]);
+        world_.EnableEquality(foot.tie, scene_.body[foot.figure].nodes[foot.node].offset,
+                              posed_[foot.figure].node[foot.node]);
       } else if (!planted && foot.planted) {
-        world_.Release(foot.tie);
+        world_.DisableEquality(foot.tie);
       }
       foot.planted = planted;
     }
@@ -129,7 +129,7 @@ class Run {
 
   void ReleaseFeet() {
     for (Foot& foot : feet_) {
-      world_.Release(foot.tie);
+      world_.DisableEquality(foot.tie);
       foot.planted = false;
     }
   }
@@ -141,17 +141,17 @@ class Run {
   // One step of physics. False where the run has come apart.
   bool Step(const ControlTarget& target) {
     world_.BeginStep();
-    Look();
+    ReadState();
     control_.Apply(target, posed_, &world_);
     tangle_force_.Apply(posed_, &world_);
     world_.EndStep();
     result_.simulated += world_.time_step();
-    if (world_.Sound()) return true;
+    if (world_.IsStable()) return true;
     Stop(SimulationStatus::kDiverged, "the simulation came apart");
     return false;
   }
 
-  void Look() {
+  void ReadState() {
     for (int f = 0; f < 2; ++f) posed_[f] = world_.Posed(f);
   }
 
@@ -167,8 +167,8 @@ class Run {
       return largest;
     };
     double rest = 0;
-    world_.Locate();
-    Look();
+    world_.UpdateKinematics();
+    ReadState();
     while (result_.settle_s < settings_.settle_max_s && rest < kRestTime) {
       const std::array<PosedBody, 2> before = posed_;
       if (!Step(TargetAt(t, t, 0))) return false;
@@ -178,8 +178,8 @@ class Run {
       rest = slow && result_.settle_s > 3 * world_.time_step() ? rest + world_.time_step() : 0;
     }
     result_.settled = rest >= kRestTime;
-    world_.Locate();
-    Look();
+    world_.UpdateKinematics();
+    ReadState();
     double sum = 0, count = 0;
     for (int f = 0; f < 2; ++f) {
       const PosedBody posture = PoseBody(scene_.body[f], scene_.posture.pose[f]);
@@ -196,8 +196,8 @@ class Run {
   bool Play(int direction) {
     const int end = direction > 0 ? scene_.num_frames() - 1 : 0;
     for (int t = scene_.template_frame; t != end; t += direction) {
-      world_.Locate();
-      Look();
+      world_.UpdateKinematics();
+      ReadState();
       PlantFeet(t);
       for (int k = 0; k < steps_per_frame_; ++k) {
         if (!Step(TargetAt(t, t + direction, (k + 1.0) / steps_per_frame_))) {
@@ -277,7 +277,7 @@ const char* NameOf(SimulationStatus status) {
 }
 
 SimulationResult Simulate(const Scene& scene, const SimulationSettings& settings) {
-  return Run(scene, settings).Go();
+  return Simulator(scene, settings).Run();
 }
 
 }  // namespace retarget::solver
