@@ -18,7 +18,7 @@ std::vector<std::pair<std::string, int>> NamedJoints(const JointMap& map, int ch
   return out;
 }
 
-std::vector<std::string> VirtualJoints(const Figure& figure) {
+std::vector<std::string> VirtualJoints(const RigMeasure& figure) {
   const RigPoint& chest = figure.points.chest;
   std::vector<std::string> names;
   for (const auto& [name, joint] : NamedJoints(figure.map, chest.is_joint() ? chest.joint : -1)) {

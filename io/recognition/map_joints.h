@@ -16,7 +16,7 @@ namespace retarget::io {
 std::vector<std::pair<std::string, int>> NamedJoints(const JointMap& map, int chest_bone);
 
 // The joints of the body (not the end nodes) that no bone plays.
-std::vector<std::string> VirtualJoints(const Figure& figure);
+std::vector<std::string> VirtualJoints(const RigMeasure& figure);
 
 // The parts of one side, as the names above and map files have them.
 struct SidePart {

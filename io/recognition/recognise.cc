@@ -124,10 +124,10 @@ RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
   }
   RigFacts facts;
   facts.map = options.map ? *options.map : FindJoints(motion, {file_name, options.words}, &facts);
-  const Figure figure(motion, facts.map);
+  const RigMeasure figure(motion, facts.map);
   FindUnit(FigureHeight(figure), options, file_name, &facts);
   FindUp(figure, options, file_name, &facts);
-  CheckFigure(figure, &facts);
+  CheckRig(figure, &facts);
   facts.t_pose_frames = TPoseFrames(motion, figure.points, UpAxis(facts));
   NoteTPose(motion, figure.points, options.words, &facts);
   return facts;

@@ -16,9 +16,9 @@ namespace {
 
 using Side = RigPoints::Side;
 
-class FigureCheck {
+class RigCheck {
  public:
-  FigureCheck(const Figure& figure, RigFacts* facts) : figure_(figure), facts_(facts) {}
+  RigCheck(const RigMeasure& figure, RigFacts* facts) : figure_(figure), facts_(facts) {}
 
   void Run() {
     CheckEqualSides();
@@ -147,13 +147,13 @@ class FigureCheck {
     return 0;
   }
 
-  const Figure& figure_;
+  const RigMeasure& figure_;
   RigFacts* facts_;
   int checks_ = 0, passed_ = 0;
 };
 
 }  // namespace
 
-void CheckFigure(const Figure& figure, RigFacts* facts) { FigureCheck(figure, facts).Run(); }
+void CheckRig(const RigMeasure& figure, RigFacts* facts) { RigCheck(figure, facts).Run(); }
 
 }  // namespace retarget::io

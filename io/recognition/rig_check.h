@@ -10,6 +10,6 @@ namespace retarget::io {
 // Notes what is odd about the figure and which joints are virtual, fills its facing, and brings the
 // share of checks that it passed into `facts->confidence`, which holds the share of its joints
 // found by name. `facts` has map, unit and up axis.
-void CheckFigure(const Figure& figure, RigFacts* facts);
+void CheckRig(const RigMeasure& figure, RigFacts* facts);
 
 }  // namespace retarget::io

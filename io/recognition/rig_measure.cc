@@ -8,13 +8,13 @@
 namespace retarget::io {
 namespace {
 
-double LegLength(const Figure& f, const RigPoints::Side& side) {
+double LegLength(const RigMeasure& f, const RigPoints::Side& side) {
   return MedianDistance(f.poses, side.hip, side.knee) +
          MedianDistance(f.poses, side.knee, side.ankle);
 }
 
 // How far the hips are below the root, along the trunk of the standing figure. May be negative.
-double HipDrop(const Figure& f) {
+double HipDrop(const RigMeasure& f) {
   const PosedRig& pose = StandingPose(f);
   const RigPoints& p = f.points;
   const Vec3 hips = (At(pose, p.left.hip) + At(pose, p.right.hip)) / 2;
@@ -24,7 +24,7 @@ double HipDrop(const Figure& f) {
 
 }  // namespace
 
-Figure::Figure(const RigMotion& motion, const JointMap& joint_map)
+RigMeasure::RigMeasure(const RigMotion& motion, const JointMap& joint_map)
     : rig(&motion.rig),
       map(joint_map),
       poses(SamplePoses(motion)),
@@ -34,7 +34,7 @@ Vec3 MidAnkle(const PosedRig& pose, const RigPoints& points) {
   return (At(pose, points.left.ankle) + At(pose, points.right.ankle)) / 2;
 }
 
-const PosedRig& StandingPose(const Figure& figure) {
+const PosedRig& StandingPose(const RigMeasure& figure) {
   const auto height = [&](const PosedRig& pose) {
     return (At(pose, figure.points.neck) - MidAnkle(pose, figure.points)).squaredNorm();
   };
@@ -43,7 +43,7 @@ const PosedRig& StandingPose(const Figure& figure) {
       [&](const PosedRig& a, const PosedRig& b) { return height(a) < height(b); });
 }
 
-double FigureHeight(const Figure& f) {
+double FigureHeight(const RigMeasure& f) {
   const RigPoints& p = f.points;
   const double ankle_to_root = (LegLength(f, p.left) + LegLength(f, p.right)) / 2 + HipDrop(f);
   const double ankle_to_head = ankle_to_root + MedianDistance(f.poses, p.root, p.chest) +

@@ -10,8 +10,8 @@
 namespace retarget::io {
 
 // A mapped rig with the poses that it is measured in.
-struct Figure {
-  Figure(const RigMotion& motion, const JointMap& joint_map);
+struct RigMeasure {
+  RigMeasure(const RigMotion& motion, const JointMap& joint_map);
 
   const Rig* rig;  // of the motion
   JointMap map;
@@ -22,10 +22,10 @@ struct Figure {
 Vec3 MidAnkle(const PosedRig& pose, const RigPoints& points);
 
 // The pose that stands most upright: neck and ankles farthest apart.
-const PosedRig& StandingPose(const Figure& figure);
+const PosedRig& StandingPose(const RigMeasure& figure);
 
 // Ground to vertex of the straightened figure, in file units.
-double FigureHeight(const Figure& figure);
+double FigureHeight(const RigMeasure& figure);
 
 // Where both feet point, by toe joints or the ends of the ankles; zero where neither is there.
 Vec3 FeetDirection(const PosedRig& pose, const RigPoints& points);

@@ -86,7 +86,7 @@ void FindUnit(double height, const RecogniseOptions& options, const std::string&
   }
 }
 
-void FindUp(const Figure& figure, const RecogniseOptions& options, const std::string& file,
+void FindUp(const RigMeasure& figure, const RecogniseOptions& options, const std::string& file,
             RigFacts* facts) {
   if (options.up && *options.up != 'y' && *options.up != 'z') {
     throw InputError(file + ": the up axis must be y or z");

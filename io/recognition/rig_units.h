@@ -18,7 +18,7 @@ void FindUnit(double height, const RecogniseOptions& options, const std::string&
 // Fills the up axis: of the options, else the one of y and z along which the figure stands; where
 // it lies, the one along which its offsets draw it.
 // Notes what is odd; throws InputError on options that are no axis.
-void FindUp(const Figure& figure, const RecogniseOptions& options, const std::string& file,
+void FindUp(const RigMeasure& figure, const RecogniseOptions& options, const std::string& file,
             RigFacts* facts);
 
 Vec3 UpAxis(const RigFacts& facts);
