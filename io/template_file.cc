@@ -94,7 +94,7 @@ TemplatePosture PostureFrom(const Value& root) {
   std::array<PosedBody, 2> posed;
   posture.name = root.Require("name").Text();
   if (const auto v = root.Find("description")) posture.description = v->Text();
-  if (const auto v = root.Find("tags")) posture.tags = ReadTags(*v);
+  if (const auto v = root.Find("tags")) posture.keywords = ReadTags(*v);
   for (int f = 0; f < 2; ++f) {
     ReadFigure(root.Require(FigureNames()[f]), &posture.body[f], &posture.pose[f]);
     posed[f] = PoseBody(posture.body[f], posture.pose[f]);

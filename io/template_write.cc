@@ -181,7 +181,7 @@ std::string ViewText(const TemplatePosture& posture) {
 
 std::string HeadText(const TemplatePosture& posture) {
   std::vector<std::string> tags;
-  for (const std::string& tag : posture.tags) tags.push_back(YamlText(tag));
+  for (const std::string& tag : posture.keywords) tags.push_back(YamlText(tag));
   return fmt::format(
       "# Template posture. Lengths and positions in m, rotation vectors in degrees.\n"
       "format: {}\nname: {}\ndescription: {}\ntags: {}\n",

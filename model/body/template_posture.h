@@ -55,7 +55,7 @@ struct TemplateCamera {
 struct TemplatePosture {
   std::string name;
   std::string description;
-  std::vector<std::string> tags;
+  std::vector<std::string> keywords;
   std::array<Body, 2> body;
   std::array<Pose, 2> pose;
   std::vector<Hold> holds;

@@ -88,7 +88,7 @@ void Apply(const SetDescription& op, TemplatePosture* posture) {
   posture->description = op.description;
 }
 
-void Apply(const SetTags& op, TemplatePosture* posture) { posture->tags = op.tags; }
+void Apply(const SetTags& op, TemplatePosture* posture) { posture->keywords = op.tags; }
 
 void Apply(const SetPhoto& op, TemplatePosture* posture) {
   if (op.photo) {

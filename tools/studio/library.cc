@@ -131,7 +131,7 @@ void StudioLibrary::AddListed(const std::string& id, const Place& place, report:
           io::ParseTemplate(ReadAt(place).text, place.path.filename().string());
       known.entry["name"] = posture.name;
       known.entry["description"] = posture.description;
-      known.entry["tags"] = posture.tags;
+      known.entry["tags"] = posture.keywords;
     } catch (const InputError& refusal) {
       known.entry["error"] = refusal.what();
     }

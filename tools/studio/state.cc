@@ -139,7 +139,7 @@ report::Json PostureStateJson(const posing::PoseSession& session) {
   if (session.can_undo()) out["undo_text"] = session.undo_text();
   out["name"] = posture.name;
   out["description"] = posture.description;
-  out["tags_words"] = posture.tags;
+  out["tags_words"] = posture.keywords;
   for (int f = 0; f < 2; ++f) {
     out["figures"][report::kFigure[f]] = FigureJson(posture.body[f], posture.pose[f]);
     out["supports"][report::kFigure[f]] = NodesJson(posture.body[f], posture.supports[f]);

@@ -356,7 +356,7 @@ TEST(PoseCommand, DoesWhatIsAskedInTheOrderGivenAndAgreesWithTheSavedFile) {
   EXPECT_LT(queries["solves"][0]["drag_error_m"], 0.01);
   const TemplatePosture posture = io::ReadTemplate(out);
   EXPECT_EQ(posture.name, "made");
-  EXPECT_EQ(posture.tags, (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(posture.keywords, (std::vector<std::string>{"one", "two"}));
   EXPECT_EQ(posture.holds.size(), 2u);
   const Vec3 head =
       PoseBody(posture.body[1], posture.pose[1]).node[posture.body[1].FindNode("head")];
