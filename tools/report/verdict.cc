@@ -73,10 +73,10 @@ bool HasTags(const Json& report) { return !At(report, "/tangles").empty(); }
 std::string Outcome(const Json& report, size_t missed, size_t all) {
   const int frames = report.value("frames", 0);
   const int64_t lost = HasTags(report) ? FramesLost(report, "result") : 0;
-  const std::string hold = !HasTags(report) ? ""
-                           : lost > 0
-                               ? fmt::format("The hold is lost in {} of {} frames", lost, frames)
-                               : fmt::format("The hold is kept in all {} frames", frames);
+  const std::string hold =
+      !HasTags(report) ? ""
+      : lost > 0       ? fmt::format("The tangles are lost in {} of {} frames", lost, frames)
+                       : fmt::format("The tangles are kept in all {} frames", frames);
   if (missed == 0)
     return hold.empty() ? "Every requirement is met." : hold + " and every requirement is met.";
   const std::string rest =
@@ -161,8 +161,8 @@ std::vector<Sentence> Compared(const Json& report) {
   const int64_t lost = FramesLost(report, "baseline"), ours = FramesLost(report, "result");
   std::string line = "The simulation shows " + Blemishes(report, "baseline");
   if (HasTags(report)) {
-    line = lost > 0 ? fmt::format("The simulation lost the hold in {}", of_all(lost))
-                    : "The simulation keeps the hold in every frame";
+    line = lost > 0 ? fmt::format("The simulation lost the tangles in {}", of_all(lost))
+                    : "The simulation keeps the tangles in every frame";
     line += ", with " + Blemishes(report, "baseline");
     if (lost > 0)
       line += ours > 0 ? fmt::format("; the solve loses it in {}", ours)
@@ -211,8 +211,8 @@ std::vector<Sentence> Look(const Json& report, const std::vector<Sentence>& miss
     if (!(value < least)) continue;
     least = value;
     const int frame = tags[k].value("worst_frame", 0);
-    loosest = {fmt::format("The hold is loosest in frame {}: tag {} stands at {:.2f} there.", frame,
-                           k + 1, value),
+    loosest = {fmt::format("The tangles are loosest in frame {}: tag {} stands at {:.2f} there.",
+                           frame, k + 1, value),
                frame};
   }
   if (look.empty() && !loosest.text.empty()) look.push_back(loosest);

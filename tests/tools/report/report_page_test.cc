@@ -93,7 +93,7 @@ std::string Unbase64(const std::string& text) {
 TEST(Verdict, SaysWhatWasAskedAndThatItIsMet) {
   const Verdict verdict = VerdictOf(GoodReport());
   EXPECT_TRUE(verdict.met);
-  EXPECT_EQ(verdict.outcome, "The hold is kept in all 10 frames and every requirement is met.");
+  EXPECT_EQ(verdict.outcome, "The tangles are kept in all 10 frames and every requirement is met.");
   const std::string asked = Joined(verdict.asked);
   for (const char* part : {"one.bvh", "two.bvh", "\"rear choke\"", "10 frames (1.0 s)", "1 tangle ",
                            "left hand to neck", "chest to head top"}) {
@@ -117,14 +117,15 @@ TEST(Verdict, NamesWhatIsMissedWithItsPlace) {
   report["solve"]["status"] = "time limit";
   const Verdict verdict = VerdictOf(report);
   EXPECT_FALSE(verdict.met);
-  EXPECT_EQ(verdict.outcome, "The hold is lost in 2 of 10 frames; 2 of 3 requirements are missed.");
+  EXPECT_EQ(verdict.outcome,
+            "The tangles are lost in 2 of 10 frames; 2 of 3 requirements are missed.");
   ASSERT_EQ(verdict.missed.size(), 2u);
   EXPECT_NE(verdict.missed[0].text.find("0.30"), std::string::npos);
   EXPECT_NE(verdict.missed[0].text.find("frame 7"), std::string::npos);
   EXPECT_NE(verdict.missed[1].text.find("3.1 cm, 2.0 allowed"), std::string::npos);
   EXPECT_NE(verdict.missed[1].text.find("a left elbow in b neck"), std::string::npos);
   EXPECT_NE(Joined(verdict.stopped).find("time limit"), std::string::npos);
-  EXPECT_NE(Joined(verdict.compared).find("The simulation lost the hold in 7 of 10 frames"),
+  EXPECT_NE(Joined(verdict.compared).find("The simulation lost the tangles in 7 of 10 frames"),
             std::string::npos);
   EXPECT_NE(Joined(verdict.look).find("frame 7 first"), std::string::npos);
 }
