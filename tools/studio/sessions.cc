@@ -128,16 +128,16 @@ report::Json StudioSession::State(bool live) {
 
 report::Json StudioSession::Reply(bool live, const std::optional<solver::PoseResult>& result) {
   report::Json reply = {{"state", State(live)}};
-  if (!SameBodies(told_body_, pose_.posture().body)) {
-    told_body_ = pose_.posture().body;
-    reply["body"] = BodiesJson(told_body_);
+  if (!SameBodies(sent_body_, pose_.posture().body)) {
+    sent_body_ = pose_.posture().body;
+    reply["body"] = BodiesJson(sent_body_);
   }
   if (result) reply["result"] = PoseResultJson(*result, pose_.posture());
   return reply;
 }
 
 report::Json StudioSession::WholeReply() {
-  told_body_ = {};
+  sent_body_ = {};
   return Reply(false);
 }
 

@@ -66,7 +66,7 @@ class StudioSession {
   std::vector<StudioDocument> documents_;  // by PoseState::document
   int64_t revision_ = 1;
   std::vector<Tag> tags_;  // as found last
-  std::array<Body, 2> told_body_;
+  std::array<Body, 2> sent_body_;
   std::map<std::string, std::string> photos_;  // bytes by file name, for the whole history
 };
 
