@@ -74,24 +74,24 @@ std::vector<std::string> Diagnosis::terms() const {
 std::vector<Diagnosis> Diagnose(const Problem& problem, const Unknowns& unknowns,
                                 const MetricsContext& subject, const Metrics& metrics,
                                 const std::vector<RequirementCheck>& checks) {
-  std::vector<Diagnosis> conflicts;
+  std::vector<Diagnosis> diagnoses;
   for (const RequirementCheck& check : checks) {
     if (check.met) continue;
     // The share of deep frames says nothing that the deepest does not.
-    const bool told = check.kind == RequirementKind::kPenetrationOver1cm && !conflicts.empty() &&
-                      conflicts.back().check.kind == RequirementKind::kPenetration;
+    const bool told = check.kind == RequirementKind::kPenetrationOver1cm && !diagnoses.empty() &&
+                      diagnoses.back().check.kind == RequirementKind::kPenetration;
     if (told) continue;
-    Diagnosis conflict;
-    conflict.check = check;
-    conflict.opposition = OppositionTo(problem, unknowns, check);
-    const Opposition& o = conflict.opposition;
+    Diagnosis diagnosis;
+    diagnosis.check = check;
+    diagnosis.opposition = OppositionTo(problem, unknowns, check);
+    const Opposition& o = diagnosis.opposition;
     if (o.item >= 0 && o.shares[0].term == "foot_lock") {
-      conflict.opposing_foot = FootOfAnchor(problem.scene(), o.item);
+      diagnosis.opposing_foot = FootOfAnchor(problem.scene(), o.item);
     }
-    FindCause({problem, unknowns, subject, metrics}, &conflict);
-    conflicts.push_back(conflict);
+    FindCause({problem, unknowns, subject, metrics}, &diagnosis);
+    diagnoses.push_back(diagnosis);
   }
-  return conflicts;
+  return diagnoses;
 }
 
 }  // namespace retarget::solver

@@ -99,7 +99,7 @@ struct Diagnosis {
   std::vector<std::string> terms() const;
 };
 
-// One conflict per missed requirement, in the order of the checks.
+// One diagnosis per missed requirement, in the order of the checks.
 std::vector<Diagnosis> Diagnose(const Problem& problem, const Unknowns& unknowns,
                                 const MetricsContext& subject, const Metrics& metrics,
                                 const std::vector<RequirementCheck>& checks);

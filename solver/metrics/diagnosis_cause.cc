@@ -23,12 +23,12 @@ double UsualWeight(const std::string& term) { return WeightIn(Settings{}, term);
 
 class CauseFinder {
  public:
-  CauseFinder(const DiagnosisCase& c, Diagnosis* conflict)
-      : c_(c), settings_(c.problem.settings()), conflict_(*conflict), check_(conflict->check) {}
+  CauseFinder(const DiagnosisCase& c, Diagnosis* diagnosis)
+      : c_(c), settings_(c.problem.settings()), diagnosis_(*diagnosis), check_(diagnosis->check) {}
 
   void Run() {
-    const Opposition& o = conflict_.opposition;
-    if (BeyondWeights() || FindContradiction(c_, &conflict_)) return;
+    const Opposition& o = diagnosis_.opposition;
+    if (BeyondWeights() || FindContradiction(c_, &diagnosis_)) return;
     if (o.opposed() && o.shares[0].term == term_) return Set(Cause::kSameTerm);
     if (IsFlat()) return Set(Cause::kFlatTangle);
     if (Weight(term_) < 0.5 * UsualWeight(term_)) {
@@ -41,17 +41,17 @@ class CauseFinder {
   }
 
  private:
-  void Set(Cause cause) { conflict_.cause = cause; }
+  void Set(Cause cause) { diagnosis_.cause = cause; }
   double Weight(const std::string& term) const { return WeightIn(settings_, term); }
   const TangleTarget& Tag() const { return c_.subject.tangles[static_cast<size_t>(check_.item)]; }
 
   void SuggestDefault(const std::string& term) {
-    conflict_.suggestion = {"weights." + term, UsualWeight(term), Weight(term), true};
+    diagnosis_.suggestion = {"weights." + term, UsualWeight(term), Weight(term), true};
   }
 
   // Causes that no weighing of terms against each other can mend.
   bool BeyondWeights() {
-    conflict_.pass_throughs = static_cast<int>(c_.metrics.pass_throughs.size());
+    diagnosis_.pass_throughs = static_cast<int>(c_.metrics.pass_throughs.size());
     if (check_.kind == RequirementKind::kPassThroughs) {
       Set(Cause::kPassThrough);
     } else if (term_.empty()) {
@@ -61,7 +61,7 @@ class CauseFinder {
     } else if (Weight(term_) == 0) {
       Set(Cause::kNoWeight);
       SuggestDefault(term_);
-    } else if (conflict_.opposition.pull == 0) {
+    } else if (diagnosis_.opposition.pull == 0) {
       Set(Cause::kBetweenFrames);
     } else {
       return false;
@@ -74,7 +74,7 @@ class CauseFinder {
     if (std::abs(Tag().tag.tangle.gli) <= check_.limit) return Set(Cause::kLooseTemplate);
     Set(Cause::kLowTarget);
     const double margin = std::min(0.5, 1.1 * check_.limit - kTangleThreshold);
-    conflict_.suggestion = {"tangle.margin", margin, settings_.tangle.margin, false};
+    diagnosis_.suggestion = {"tangle.margin", margin, settings_.tangle.margin, false};
   }
 
   // A tag whose gradient has vanished: its paths are far apart.
@@ -82,17 +82,17 @@ class CauseFinder {
     if (check_.kind != RequirementKind::kTangle) return false;
     const double weight = Weight(term_);
     const double missing = std::max(Tag().target - check_.value, 1e-6);
-    conflict_.gli_slope = conflict_.opposition.pull / (weight * weight * missing);
-    return conflict_.gli_slope < kFlatGli;
+    diagnosis_.gli_slope = diagnosis_.opposition.pull / (weight * weight * missing);
+    return diagnosis_.gli_slope < kFlatGli;
   }
 
   // An opponent's weight that is far too large back to its default, else more of its own.
   void SuggestWeight() {
-    for (const Opposition::Share& s : conflict_.opposition.shares) {
+    for (const Opposition::Share& s : diagnosis_.opposition.shares) {
       if (s.share < kCountingShare || Weight(s.term) <= 2 * UsualWeight(s.term)) continue;
       return SuggestDefault(s.term);
     }
-    conflict_.suggestion = {"weights." + term_, MoreWeight(), Weight(term_), false};
+    diagnosis_.suggestion = {"weights." + term_, MoreWeight(), Weight(term_), false};
   }
 
   // How much the weight of the requirement's own term would have to grow: against a steady force
@@ -113,13 +113,13 @@ class CauseFinder {
 
   const DiagnosisCase& c_;
   const Settings& settings_;
-  Diagnosis& conflict_;
+  Diagnosis& diagnosis_;
   const RequirementCheck& check_;
   const std::string term_ = TermOf(check_.kind);
 };
 
 }  // namespace
 
-void FindCause(const DiagnosisCase& c, Diagnosis* conflict) { CauseFinder(c, conflict).Run(); }
+void FindCause(const DiagnosisCase& c, Diagnosis* diagnosis) { CauseFinder(c, diagnosis).Run(); }
 
 }  // namespace retarget::solver

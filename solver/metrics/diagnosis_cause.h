@@ -13,11 +13,11 @@ struct DiagnosisCase {
   const Metrics& metrics;
 };
 
-// Fills cause, suggestion and what belongs to them; `conflict` has its check and opposition.
-void FindCause(const DiagnosisCase& c, Diagnosis* conflict);
+// Fills cause, suggestion and what belongs to them; `diagnosis` has its check and opposition.
+void FindCause(const DiagnosisCase& c, Diagnosis* diagnosis);
 
 // What the clips and the template themselves ask for that no weight can settle: two planted feet in
 // one place, or a hold out of reach of the feet. False where there is no such thing.
-bool FindContradiction(const DiagnosisCase& c, Diagnosis* conflict);
+bool FindContradiction(const DiagnosisCase& c, Diagnosis* diagnosis);
 
 }  // namespace retarget::solver

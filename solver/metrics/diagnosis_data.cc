@@ -9,8 +9,8 @@ namespace retarget::solver {
 namespace {
 
 // Two planted feet in one place.
-bool FindFeet(const DiagnosisCase& c, Diagnosis* conflict) {
-  const RequirementCheck& check = conflict->check;
+bool FindFeet(const DiagnosisCase& c, Diagnosis* diagnosis) {
+  const RequirementCheck& check = diagnosis->check;
   if (TermOf(check.kind) != "penetration") return false;
   const Scene& scene = c.problem.scene();
   std::vector<PlantedFoot> feet;
@@ -24,8 +24,8 @@ bool FindFeet(const DiagnosisCase& c, Diagnosis* conflict) {
     if (planted == contacts.end()) return false;
     feet.push_back({limb.figure, *planted});
   }
-  conflict->cause = Cause::kFeetInOnePlace;
-  conflict->feet = feet;
+  diagnosis->cause = Cause::kFeetInOnePlace;
+  diagnosis->feet = feet;
   return true;
 }
 
@@ -63,8 +63,8 @@ std::vector<GroundAnchor> GroundAnchorsOf(const DiagnosisCase& c, const Frame& f
 }
 
 // A hold that no pose reaches while the feet stand where they stand.
-bool FindOutOfReach(const DiagnosisCase& c, Diagnosis* conflict) {
-  const RequirementCheck& check = conflict->check;
+bool FindOutOfReach(const DiagnosisCase& c, Diagnosis* diagnosis) {
+  const RequirementCheck& check = diagnosis->check;
   if (check.kind != RequirementKind::kHold) return false;
   const Hold& hold = c.problem.scene().holds[static_cast<size_t>(check.item)];
   if (hold.from.figure == hold.to.figure) return false;
@@ -74,8 +74,8 @@ bool FindOutOfReach(const DiagnosisCase& c, Diagnosis* conflict) {
     for (const GroundAnchor& to : GroundAnchorsOf(c, frame, hold.to)) {
       const double apart = (from.place - to.place).norm(), reach = from.reach + to.reach;
       if (apart <= reach) continue;
-      conflict->cause = Cause::kHoldOutOfReach;
-      conflict->reach = {{from.foot, to.foot}, apart, reach};
+      diagnosis->cause = Cause::kHoldOutOfReach;
+      diagnosis->reach = {{from.foot, to.foot}, apart, reach};
       return true;
     }
   }
@@ -84,8 +84,8 @@ bool FindOutOfReach(const DiagnosisCase& c, Diagnosis* conflict) {
 
 }  // namespace
 
-bool FindContradiction(const DiagnosisCase& c, Diagnosis* conflict) {
-  return FindFeet(c, conflict) || FindOutOfReach(c, conflict);
+bool FindContradiction(const DiagnosisCase& c, Diagnosis* diagnosis) {
+  return FindFeet(c, diagnosis) || FindOutOfReach(c, diagnosis);
 }
 
 PlantedFoot FootOfAnchor(const Scene& scene, int anchor) {

@@ -23,8 +23,8 @@ struct PhysicsOptions {
 };
 
 // A tie holds a point of a link on a point of another link, or of the world; with `rotation` also
-// the relative turn of the two. EqualityConstraints are declared with the model and can be fastened
-// and let go.
+// the relative turn of the two. Equality constraints are declared with the model and can be
+// fastened and let go.
 struct EqualityConstraint {
   int figure = 0, link = 0;
   int to_figure = -1, to_link = 0;  // -1: the world

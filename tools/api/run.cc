@@ -153,7 +153,7 @@ std::string RequirementName(const solver::RequirementCheck& requirement) {
 }
 
 std::string DiagnosisText(const solver::Diagnosis& diagnosis, const Result& result) {
-  return report::ConflictSentence(diagnosis, solver::MetricsContextOf(result.run.scene));
+  return report::DiagnosisSentence(diagnosis, solver::MetricsContextOf(result.run.scene));
 }
 
 const char* Version() { return api::kVersion; }

@@ -153,7 +153,7 @@ report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
   }
   report["metrics"] = report::ThreeMetricsJson(run.subject, source, &baseline, metrics);
   report["requirements"] = report::ChecksJson(run.checks, run.subject.body);
-  report["conflicts"] = report::ConflictsJson(run.conflicts, run.subject);
+  report["conflicts"] = report::DiagnosesJson(run.diagnoses, run.subject);
   report["warnings"] = result.warnings;
   report["literal_tangles"] = result.tangles.literal.size();
   report["solve"] = SolveJson(result);

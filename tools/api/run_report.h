@@ -23,7 +23,7 @@ struct RunFacts {
   const solver::RetargetResult& result;
   const solver::MetricsContext& subject;
   const std::vector<solver::RequirementCheck>& checks;
-  const std::vector<solver::Diagnosis>& conflicts;
+  const std::vector<solver::Diagnosis>& diagnoses;
   int exit_code;
   const std::array<WrittenRig, 2>& rig;
 };

@@ -112,8 +112,8 @@ int RunRetarget(const RetargetOptions& options) {
   fmt::print("{}",
              report::MetricsTable(solver::MetricsContextOf(result.run.scene), result.source_metrics,
                                   &result.baseline_metrics, result.metrics, result.requirements));
-  for (const solver::Diagnosis& conflict : result.diagnoses) {
-    fmt::print("  {}\n", DiagnosisText(conflict, result));
+  for (const solver::Diagnosis& diagnosis : result.diagnoses) {
+    fmt::print("  {}\n", DiagnosisText(diagnosis, result));
   }
   const solver::SolveResult& solve = result.run.solve;
   const int frames = result.run.scene.num_frames();

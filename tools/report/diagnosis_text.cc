@@ -16,8 +16,8 @@ constexpr double kAlsoOpposes = 0.2;  // share that is worth a word beside the l
 
 class Sentence {
  public:
-  Sentence(const solver::Diagnosis& conflict, const solver::MetricsContext& subject)
-      : c_(conflict), check_(conflict.check), subject_(subject) {}
+  Sentence(const solver::Diagnosis& diagnosis, const solver::MetricsContext& subject)
+      : c_(diagnosis), check_(diagnosis.check), subject_(subject) {}
 
   std::string What() const {
     const solver::RequirementCheck& r = check_;
@@ -242,10 +242,10 @@ const char* CauseName(Cause cause) {
   return "";
 }
 
-std::string ConflictSentence(const solver::Diagnosis& conflict,
-                             const solver::MetricsContext& subject) {
-  const Sentence sentence(conflict, subject);
-  return NameOf(conflict.check) + ": " + sentence.What() + "; " + sentence.Why();
+std::string DiagnosisSentence(const solver::Diagnosis& diagnosis,
+                              const solver::MetricsContext& subject) {
+  const Sentence sentence(diagnosis, subject);
+  return NameOf(diagnosis.check) + ": " + sentence.What() + "; " + sentence.Why();
 }
 
 }  // namespace retarget::report

@@ -1,4 +1,4 @@
-// A conflict in words: what is missed where, what pulls against it, and what to do about it. The
+// A diagnosis in words: what is missed where, what pulls against it, and what to do about it. The
 // only place that names the command line's options for it.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace retarget::report {
 
 // "flat_tangle": as report.json has it.
 const char* CauseName(solver::Cause cause);
-std::string ConflictSentence(const solver::Diagnosis& conflict,
-                             const solver::MetricsContext& subject);
+std::string DiagnosisSentence(const solver::Diagnosis& diagnosis,
+                              const solver::MetricsContext& subject);
 
 }  // namespace retarget::report

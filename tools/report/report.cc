@@ -97,10 +97,10 @@ Json ThreeMetricsJson(const solver::MetricsContext& subject, const solver::Metri
           {"result", MetricsJson(subject, result)}};
 }
 
-Json ConflictsJson(const std::vector<solver::Diagnosis>& conflicts,
+Json DiagnosesJson(const std::vector<solver::Diagnosis>& diagnoses,
                    const solver::MetricsContext& subject) {
   Json out = Json::array();
-  for (const solver::Diagnosis& c : conflicts) {
+  for (const solver::Diagnosis& c : diagnoses) {
     Json limbs = Json::array();
     for (const solver::LimbNode& limb : c.check.limbs) {
       limbs.push_back(LimbName(limb, subject.body));
@@ -111,7 +111,7 @@ Json ConflictsJson(const std::vector<solver::Diagnosis>& conflicts,
         {"limbs", limbs},
         {"terms", c.terms()},
         {"cosine", c.terms().size() < 2 ? Json(nullptr) : Json(c.opposition.shares[0].cosine)},
-        {"sentence", ConflictSentence(c, subject)}};
+        {"sentence", DiagnosisSentence(c, subject)}};
     AddPlace(c.check, &conflict);
     conflict["cause"] = CauseName(c.cause);
     conflict["suggestion"] = nullptr;

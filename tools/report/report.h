@@ -29,7 +29,7 @@ Json ThreeMetricsJson(const solver::MetricsContext& subject, const solver::Metri
 Json PassThroughsJson(const solver::MetricsContext& subject,
                       const std::vector<solver::PassThrough>& passes);
 
-Json ConflictsJson(const std::vector<solver::Diagnosis>& conflicts,
+Json DiagnosesJson(const std::vector<solver::Diagnosis>& diagnoses,
                    const solver::MetricsContext& subject);
 
 }  // namespace retarget::report

@@ -1,4 +1,4 @@
-// Scenes whose conflicts are known beforehand.
+// Scenes whose diagnoses are known beforehand.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct Solved {
   MetricsContext subject;
   Metrics metrics;
   std::vector<RequirementCheck> checks;
-  std::vector<Diagnosis> conflicts;
+  std::vector<Diagnosis> diagnoses;
 
   Solved(const Scene& s, const Settings& with) : scene(s), settings(with) {
     problem = std::make_unique<Problem>(scene, settings);
@@ -27,14 +27,14 @@ struct Solved {
     const std::array<Clip, 2> solved = EditedClips(scene, unknowns);
     metrics = Measure(subject, ViewOf(scene.body, solved), ViewOf(scene.body, scene.source));
     checks = CheckRequirements(subject, metrics, settings.requirements);
-    conflicts = Diagnose(*problem, unknowns, subject, metrics, checks);
+    diagnoses = Diagnose(*problem, unknowns, subject, metrics, checks);
   }
   // About a hold, from 0.
   const Diagnosis& OfHold(int k) const {
-    for (const Diagnosis& c : conflicts) {
+    for (const Diagnosis& c : diagnoses) {
       if (c.check.kind == RequirementKind::kHold && c.check.item == k) return c;
     }
-    throw std::runtime_error("no conflict about hold " + std::to_string(k));
+    throw std::runtime_error("no diagnosis about hold " + std::to_string(k));
   }
   size_t IndexOf(const std::string& term) const {
     const std::vector<TermCost> costs = problem->CostByTerm(unknowns);

@@ -1,4 +1,4 @@
-// Pulls against numerical differentiation of the cost, and conflicts that are known beforehand.
+// Pulls against numerical differentiation of the cost, and diagnoses that are known beforehand.
 #include "solver/metrics/diagnosis.h"
 
 #include <map>
@@ -156,7 +156,7 @@ TEST(Diagnosis, TheSuggestedWeightHelps) {
 
 TEST(Diagnosis, NoneWhereEverythingIsMet) {
   const Solved s(HandTo({Vec3::Zero()}), {});
-  EXPECT_TRUE(s.conflicts.empty());
+  EXPECT_TRUE(s.diagnoses.empty());
 }
 
 TEST_F(MissTest, TwoPlantedFeetInOnePlace) {

@@ -13,9 +13,9 @@ using solver::Solved;
 void ExpectSays(const std::string& sentence, const std::string& words) {
   EXPECT_NE(sentence.find(words), std::string::npos) << words << " in: " << sentence;
 }
-std::string OfHold(const Solved& s, int k) { return ConflictSentence(s.OfHold(k), s.subject); }
+std::string OfHold(const Solved& s, int k) { return DiagnosisSentence(s.OfHold(k), s.subject); }
 
-TEST(ConflictSentence, TwoHoldsThatPullOneHandApart) {
+TEST(DiagnosisSentence, TwoHoldsThatPullOneHandApart) {
   const Solved s(HandTo({Vec3(0, 0.2, -0.1), Vec3(0, -0.2, 0.1)}), {});
   for (const int k : {0, 1}) {
     ExpectSays(OfHold(s, k), "hold " + std::to_string(2 - k));
@@ -23,13 +23,13 @@ TEST(ConflictSentence, TwoHoldsThatPullOneHandApart) {
   }
 }
 
-TEST(ConflictSentence, AHoldFarAwayAgainstPlantedFeet) {
+TEST(DiagnosisSentence, AHoldFarAwayAgainstPlantedFeet) {
   const Solved s(HandTo({Vec3(0, 3, 0)}), solver::PlantedSettings());
   ExpectSays(OfHold(s, 0), "`hold` and `foot_lock` (a ");
   ExpectSays(OfHold(s, 0), "contradict each other");
 }
 
-TEST(ConflictSentence, AFeebleWeightIsNamedWithItsDefault) {
+TEST(DiagnosisSentence, AFeebleWeightIsNamedWithItsDefault) {
   Settings settings;
   settings.weights.hold = 0.1;
   const std::string feeble = OfHold(Solved(HandTo({Vec3(0, 0.15, 0)}), settings), 0);
@@ -39,7 +39,7 @@ TEST(ConflictSentence, AFeebleWeightIsNamedWithItsDefault) {
   ExpectSays(OfHold(Solved(HandTo({Vec3(0, 0.15, 0)}), settings), 0), "weights.hold is 0");
 }
 
-TEST(ConflictSentence, NamesTheSuggestion) {
+TEST(DiagnosisSentence, NamesTheSuggestion) {
   const Solved s(HandTo({Vec3(0.1, 0.3, 0)}), solver::StiffSettings());
   const std::string sentence = OfHold(s, 0);
   const size_t at = sentence.find("--set weights.hold=");
@@ -50,7 +50,7 @@ TEST(ConflictSentence, NamesTheSuggestion) {
 class MissSentence : public solver::MissTest {
  protected:
   std::string Say(const solver::RequirementCheck& check) const {
-    return ConflictSentence(ConflictAbout(check), subject_);
+    return DiagnosisSentence(ConflictAbout(check), subject_);
   }
 };
 
