@@ -145,7 +145,11 @@ TEST(House, AFolderHasAtMostTwentyUnits) {
   for (const SourceFile& file : SourceFiles()) {
     units[file.folder].insert(fs::path(file.path).stem());
   }
-  EXPECT_GT(units.size(), 20u);
+  for (const auto& entry : fs::recursive_directory_iterator(ProjectPath("tools/web/src"))) {
+    if (entry.path().extension() != ".ts") continue;
+    units[entry.path().parent_path()].insert(entry.path().stem());
+  }
+  EXPECT_GT(units.size(), 25u);
   for (const auto& [folder, names] : units) EXPECT_LE(names.size(), 20u) << folder;
 }
 
@@ -167,7 +171,7 @@ const std::vector<Library>& Libraries() {
       {"yaml-cpp/", {"io/text"}, {}, 1},
       {"png.h", {"io/render"}, {}, 1},
       {"stb/", {"io/render"}, {}, 1},
-      {"CLI/", {"tools/cli"}, {}, 2},
+      {"CLI/", {"tools/cli"}, {}, 4},
       {"retarget/retarget.h", {"tools/examples"}, {}, kAnyNumber},  // as users include it
       {"httplib.h", {"tools/studio", "tools/bench"}, {}, 2},
       {"benchmark/", {"tools/bench"}, {}, kAnyNumber},

@@ -13,8 +13,8 @@
 #include <sstream>
 #include <utility>
 
-#include "io/render/capsule_mesh.h"
 #include "io/render/image.h"
+#include "io/scene/scene_figure.h"
 
 namespace retarget::io {
 namespace {
@@ -32,77 +32,6 @@ glm::quat ToGlm(const Quat& rotation) {
   const Quat q = rotation.normalized();
   return glm::quat(static_cast<float>(q.w()), static_cast<float>(q.x()), static_cast<float>(q.y()),
                    static_cast<float>(q.z()));
-}
-
-// The glTF nodes of one figure: first the nodes of the body in their order, then the extra joints.
-struct FigureTree {
-  std::vector<std::string> name;  // [nodes] as in the file
-  std::vector<int> parent;        // [nodes] -1 for the root
-  std::vector<Vec3> translation;  // [nodes] in the parent's frame, rest pose (m)
-  std::vector<int> carrier;       // [links] the node that carries the link
-};
-
-// A node of the body that stands at the joint centre of link `l` and is still free, or -1.
-int NodeAtJoint(const Body& body, int l, const std::vector<bool>& taken) {
-  const Link& link = body.links[l];
-  for (int n = 0; n < body.num_nodes(); ++n) {
-    const Node& node = body.nodes[n];
-    if (node.parent < 0 || taken[n] || node.link != link.parent) continue;
-    if ((node.offset - link.centre).norm() <= 1e-12) return n;
-  }
-  return -1;
-}
-
-FigureTree PlanTree(const SceneFigure& figure, const Vec3& root_position) {
-  const Body& body = *figure.body;
-  assert(body.nodes[0].parent < 0 && body.nodes[0].link == 0 && body.nodes[0].offset.isZero());
-  FigureTree tree;
-  for (const Node& node : body.nodes) {
-    tree.name.push_back(figure.name + "/" + node.name);
-    tree.translation.push_back(node.offset);
-  }
-  tree.translation[0] = root_position;
-  tree.parent.assign(body.nodes.size(), -1);
-  tree.carrier.assign(body.links.size(), 0);
-
-  std::vector<bool> taken(body.nodes.size(), false);
-  for (int l = 1; l < body.num_links(); ++l) {
-    const int node = NodeAtJoint(body, l, taken);
-    if (node >= 0) {
-      taken[node] = true;
-      tree.carrier[l] = node;
-      continue;
-    }
-    tree.carrier[l] = static_cast<int>(tree.name.size());
-    tree.name.push_back(figure.name + "/joint/" + body.links[l].name);
-    tree.parent.push_back(tree.carrier[body.links[l].parent]);
-    tree.translation.push_back(body.links[l].centre);
-  }
-  for (int n = 1; n < body.num_nodes(); ++n) tree.parent[n] = tree.carrier[body.nodes[n].link];
-  return tree;
-}
-
-// The skin of one figure in its bind pose.
-struct FigureMesh {
-  TriangleMesh triangles;
-  std::vector<int> link;  // [vertices] the link each vertex is rigid in
-};
-
-FigureMesh BuildMesh(const Body& body, const PosedBody& rest) {
-  FigureMesh mesh;
-  const auto add = [&](const Vec3& a, const Vec3& b, double radius, int link) {
-    AppendCapsule(a, b, radius, &mesh.triangles);
-    mesh.link.resize(mesh.triangles.position.size(), link);
-  };
-  for (int n = 1; n < body.num_nodes(); ++n) {
-    const Node& node = body.nodes[n];
-    add(rest.node[node.parent], rest.node[n], node.radius, node.link);
-  }
-  if (const auto nose = NoseOf(body)) {
-    const Vec3& centre = rest.centre[nose->link];
-    add(centre + nose->a, centre + nose->b, nose->radius, nose->link);
-  }
-  return mesh;
 }
 
 // Puts the document together. All arrays go into its one buffer.

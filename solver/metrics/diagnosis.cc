@@ -9,12 +9,12 @@ namespace retarget::solver {
 namespace {
 
 // The part of the objective that works for a requirement.
-bool WorksFor(const RequirementCheck& check, const Scene& scene, const TermGradient& gradient) {
-  if (gradient.term != TermOf(check.kind)) return false;
-  if (check.item >= 0) return gradient.item == check.item;
+bool WorksFor(const RequirementCheck& check, const Scene& scene, const TermGradient& part) {
+  if (part.term != TermOf(check.kind)) return false;
+  if (check.item >= 0) return part.item == check.item;
   if (check.kind != RequirementKind::kFootDrift) return true;
   const LimbNode& limb = check.limbs[0];
-  const PlantedFoot foot = FootOfAnchor(scene, gradient.item);
+  const PlantedFoot foot = FootOfAnchor(scene, part.item);
   return foot.figure == limb.figure && foot.contact.node == limb.node;
 }
 
@@ -30,19 +30,19 @@ Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
   const std::vector<TermGradient> gradients =
       TermGradients(problem, unknowns, first, last, CoordinatesOf(scene, check.limbs));
   VecX own;
-  for (const TermGradient& gradient : gradients) {
-    if (!WorksFor(check, scene, gradient)) continue;
-    own = own.size() == 0 ? gradient.gradient : VecX(own + gradient.gradient);
+  for (const TermGradient& part : gradients) {
+    if (!WorksFor(check, scene, part)) continue;
+    own = own.size() == 0 ? part.gradient : VecX(own + part.gradient);
   }
   if (own.size() == 0 || own.isZero(0)) return out;
-  out.gradient = own.norm();
+  out.pull = own.norm();
   const auto share_of = [&](const VecX& g) { return -g.dot(own) / own.squaredNorm(); };
   std::map<std::string, VecX> by_term;  // the others
-  for (const TermGradient& gradient : gradients) {
-    if (WorksFor(check, scene, gradient)) continue;
-    const auto [at, is_new] = by_term.try_emplace(gradient.term, gradient.gradient);
-    if (!is_new) at->second += gradient.gradient;
-    out.unopposed -= share_of(gradient.gradient);
+  for (const TermGradient& part : gradients) {
+    if (WorksFor(check, scene, part)) continue;
+    const auto [at, is_new] = by_term.try_emplace(part.term, part.gradient);
+    if (!is_new) at->second += part.gradient;
+    out.unopposed -= share_of(part.gradient);
   }
   for (const auto& [term, gradient] : by_term) {
     if (gradient.isZero(0)) continue;
@@ -53,13 +53,11 @@ Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
   std::stable_sort(out.shares.begin(), out.shares.end(),
                    [](const auto& s, const auto& t) { return s.share > t.share; });
   double most = 0;
-  for (const TermGradient& gradient : gradients) {
-    if (gradient.term != out.shares[0].term || gradient.item < 0 ||
-        WorksFor(check, scene, gradient))
-      continue;
-    if (share_of(gradient.gradient) <= most) continue;
-    most = share_of(gradient.gradient);
-    out.item = gradient.item;
+  for (const TermGradient& part : gradients) {
+    if (part.term != out.shares[0].term || part.item < 0 || WorksFor(check, scene, part)) continue;
+    if (share_of(part.gradient) <= most) continue;
+    most = share_of(part.gradient);
+    out.item = part.item;
   }
   return out;
 }

@@ -1,6 +1,8 @@
-// The terms in Ceres Solver: the one file that knows it. Every joint edit is a parameter block of
-// three, every anchor one of two; clips are solved by conjugate gradients on the normal equations
-// with a block Jacobi preconditioner, single frames by dense Cholesky.
+// The terms in Ceres Solver. One file, though a long one, so that a single source includes Ceres
+// (its headers are the slowest to compile) and nothing else can come to depend on it. Every joint
+// edit is a parameter block of three, every anchor one of two; clips are solved by conjugate
+// gradients on the normal equations with a block Jacobi preconditioner, single frames by dense
+// Cholesky.
 #include <ceres/ceres.h>
 
 #include <algorithm>

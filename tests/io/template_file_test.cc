@@ -115,7 +115,7 @@ void ExpectSameView(const TemplatePosture& x, const TemplatePosture& y) {
 void ExpectSamePosture(const TemplatePosture& x, const TemplatePosture& y) {
   EXPECT_EQ(x.name, y.name);
   EXPECT_EQ(x.description, y.description);
-  EXPECT_EQ(x.tags, y.tags);
+  EXPECT_EQ(x.keywords, y.keywords);
   EXPECT_EQ(x.supports, y.supports);
   EXPECT_EQ(x.root, y.root);
   for (int f = 0; f < 2; ++f) ExpectSameFigure(x, y, f);
@@ -138,7 +138,7 @@ TEST(TemplateFileTest, ReadsTheExample) {
   const TemplatePosture p = Example();
   EXPECT_EQ(p.name, "bear hug");
   EXPECT_EQ(p.description, "from behind: held");
-  EXPECT_EQ(p.tags, (std::vector<std::string>{"hold", "standing"}));
+  EXPECT_EQ(p.keywords, (std::vector<std::string>{"hold", "standing"}));
   EXPECT_NEAR(p.body[0].stature, 1.75, 1e-12);
   EXPECT_NEAR(p.body[1].stature, 1.6, 1e-12);
   EXPECT_EQ(p.body[0].nodes[p.body[0].FindNode("chest")].radius, 0.13);
@@ -215,7 +215,7 @@ TEST(TemplateFileTest, OptionalKeysMayBeLeftOut) {
       "format: 1\nname: n\na: {stature: 1.8, root: {position: [0, 1, 0]}}\n"
       "b: {stature: 1.8, root: {position: [0, 1, 1]}}\n",
       "t.yaml");
-  EXPECT_TRUE(p.holds.empty() && p.tangles.empty() && p.tags.empty() && !p.photo && !p.camera);
+  EXPECT_TRUE(p.holds.empty() && p.tangles.empty() && p.keywords.empty() && !p.photo && !p.camera);
   EXPECT_EQ(p.root, (std::array{RootReference::kOwnClip, RootReference::kOwnClip}));
   ExpectSamePosture(ParseTemplate(FormatTemplate(p), "again.yaml"), p);
 }
@@ -244,7 +244,7 @@ TemplatePosture RandomPosture(std::mt19937* random) {
   TemplatePosture p;
   p.name = "0x10: [odd] # \"name\" \\ \n \t\xC3\xA9 ";
   p.description = "null";
-  p.tags = {"true", "- a", "~", "", " lead", "plain tag", "1.5", "a\x7F\x01"};
+  p.keywords = {"true", "- a", "~", "", " lead", "plain tag", "1.5", "a\x7F\x01"};
   for (int f = 0; f < 2; ++f) {
     BodyMeasures m = AverageMeasures(draw(1.4, 2));
     for (double* x : {&m.root_chest, &m.head_top, &m.left.elbow_wrist, &m.right.ankle_toe,

@@ -13,7 +13,7 @@ if (!hasStudio(program) || !canBundle(build)) {
   process.exit(77);
 }
 const { readLimits, rotationOf, rotationVectorOf } = await modulesOf(build, "limits_for_test", [
-  "studio/limits",
+  "studio/state/limits",
 ]);
 
 // -- Rotations as 3 x 3 matrices (rows), angles in degrees ----------------------------------------

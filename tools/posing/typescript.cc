@@ -60,7 +60,7 @@ std::string OperationsTypeScript() {
   for (const HistoryRow& row : HistoryTable()) add(row.name, {});
   return "// The operations of tools/posing/operation_table.h. Made from them by\n"
          "// `cmake --build build/release --target operations_ts`: not to be edited.\n\n"
-         "import type { FigureName } from \"../shared/names\";\n"
+         "import type { FigureName } from \"../../shared/names\";\n"
          "import type { Camera, HoldEnd, Photo, Quat, Ray, Tangle, Vec } from \"./protocol\";\n\n" +
          OptionNames() + "\n" + types + "\n" + UnionOf("Op", all) +
          "\n// Steps of one gesture are one step of the history.\n" +

@@ -1,4 +1,4 @@
-// The operations as types of the studio's page: tools/web/src/studio/operations.ts.
+// The operations as types of the studio's page: tools/web/src/studio/state/operations.ts.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Prints tools/web/src/studio/operations.ts.
+// Prints tools/web/src/studio/state/operations.ts.
 #include <cstdio>
 
 #include "tools/posing/typescript.h"

@@ -43,11 +43,11 @@ TEST(TermGradient, IsTheGradientOfEachTermsCost) {
   const std::vector<VecX> numerical = NumericalPulls(problem, u, 2, 4, coordinates);
   std::map<std::string, VecX> sum;
   int holds = 0, feet = 0;
-  for (const TermGradient& gradient : TermGradients(problem, u, 2, 4, coordinates)) {
-    const auto [at, is_new] = sum.try_emplace(gradient.term, gradient.gradient);
-    if (!is_new) at->second += gradient.gradient;
-    holds += gradient.term == "hold";
-    feet += gradient.term == "foot_lock";
+  for (const TermGradient& part : TermGradients(problem, u, 2, 4, coordinates)) {
+    const auto [at, is_new] = sum.try_emplace(part.term, part.gradient);
+    if (!is_new) at->second += part.gradient;
+    holds += part.term == "hold";
+    feet += part.term == "foot_lock";
   }
   EXPECT_EQ(holds, 2);
   EXPECT_GE(feet, 2);

@@ -167,7 +167,7 @@ TEST(OperationTable, FieldsOfOtherOperationsAreRefused) {
 }
 
 TEST(OperationTable, MakesTheTypesOfThePage) {
-  EXPECT_EQ(ReadWholeFile(ProjectPath("tools/web/src/studio/operations.ts")),
+  EXPECT_EQ(ReadWholeFile(ProjectPath("tools/web/src/studio/state/operations.ts")),
             OperationsTypeScript())
       << "cmake --build build/release --target operations_ts";
 }
