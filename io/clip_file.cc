@@ -138,6 +138,7 @@ ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double r
   for (size_t j = 0; j < motion.rig.joints.size(); ++j) {
     if (motion.rig.joints[j].parent < 0) {
       scaled.clip.joints[j].scale *= ratio;
+      scaled.clip.joints[j].size *= ratio;
       continue;
     }
     for (RigFrame& frame : scaled.motion.frames) frame.translation[j] /= ratio;

@@ -283,6 +283,7 @@ RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest
                                                              : points_.right.hip;
     if (at.is_joint()) joint_at_node_[n] = at.joint;
   }
+  FindFreedom();
 }
 
 }  // namespace retarget

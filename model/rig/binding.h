@@ -20,6 +20,7 @@
 
 #include "model/body/body.h"
 #include "model/body/pose.h"
+#include "model/rig/fit.h"
 #include "model/rig/points.h"
 #include "model/rig/rig.h"
 
@@ -45,6 +46,11 @@ class RigBinding {
   // `captured` with the posture `solved` in place of its own. Every bone is turned by what its link
   // was turned, G_solved G_captured^-1; bones without a link keep their local motion.
   RigFrame Apply(const RigFrame& captured, const Pose& solved) const;
+
+  // The same with the mapped joints where the body's nodes are (model/rig/fit.h), as near as the
+  // rig allows: what is to be written. The body is rigid and bends in fewer places; a rig may turn
+  // helper bones, stretch, and bend a spine of many bones.
+  RigFrame Fitted(const RigFrame& captured, const Pose& solved) const;
 
   // The turns that the rig's joints cannot make from a frame, by links that one bone alone follows:
   // a joint with one or two axes, as in Acclaim files, stays within them.
@@ -77,6 +83,10 @@ class RigBinding {
     std::vector<Vec3> position;
   };
 
+  void FindFreedom();
+  RigFrame TurnBones(const RigFrame& captured, const Pose& solved) const;
+  // The joint that moves the root, where the file moves the root or one above it.
+  int Mover() const;
   void MapLinks();
   void MapTrunk();
   void MapSide(const JointMap::Side& side, const RigPoints::Side& points, double x);
@@ -113,6 +123,10 @@ class RigBinding {
   std::vector<int> spine_group_;   // bones between root and chest
   std::vector<int> joint_at_node_;
   std::vector<char> locked_;  // by link
+  RigFreedom freedom_;        // what a fit may change
+  // Of the joints at nodes, those that do not hang from the joint before them in the body, such as
+  // feet beside the hips: they are moved to where they belong. By node.
+  std::vector<char> detached_;
   std::vector<TwistHelper> twist_helpers_;
 };
 

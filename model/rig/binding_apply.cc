@@ -1,4 +1,5 @@
 // The way back: a posture of the body onto the bones of a rig.
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include "model/geometry/so3.h"
 #include "model/rig/binding.h"
 #include "model/rig/standard_links.h"
+#include "model/rig/tree.h"
 
 namespace retarget {
 namespace {
@@ -22,6 +24,20 @@ Quat BendToDistance(const Vec3& lower, const Vec3& upper, double distance, const
   const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double now = std::acos(std::clamp(lower.dot(upper) / (a * b), -1.0, 1.0));
   return Quat(Eigen::AngleAxisd(angle - now, about));
+}
+
+// Moves `mover` so that `joint`, itself or below it, stands at `place` (file units and axes).
+void MoveJoint(const Rig& rig, int mover, int joint, const Vec3& place, RigFrame* frame) {
+  const PosedRig posed = PoseRig(rig, *frame);
+  const Vec3 apart = place - posed.position[joint];
+  const int above = rig.joints[mover].parent;
+  if (above < 0) {
+    frame->translation[mover] += apart;
+  } else if (posed.linear.empty()) {
+    frame->translation[mover] += posed.rotation[above].conjugate() * apart;
+  } else if (const Eigen::FullPivLU<Mat3> lu(posed.linear[above]); lu.isInvertible()) {
+    frame->translation[mover] += lu.solve(apart);
+  }
 }
 
 }  // namespace
@@ -78,7 +94,39 @@ void RigBinding::SpreadOverSpine(const World& captured, const std::vector<Quat>&
   }
 }
 
-RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
+// Which joints a fit may turn and move, and which have to be moved at all.
+void RigBinding::FindFreedom() {
+  const int count = rig_.num_joints();
+  freedom_.turns.assign(count, 0);
+  freedom_.shifts.assign(count, 0);
+  for (int j = 0; j < count; ++j) {
+    freedom_.turns[j] = DescendsFrom(rig_, j, map_.root) || link_of_bone_[j] >= 0;
+    freedom_.shifts[j] = rig_.joints[j].translates && DescendsFrom(rig_, j, map_.root);
+  }
+  freedom_.shifts[Mover()] = 1;
+  detached_.assign(joint_at_node_.size(), 0);
+  for (int n = 1; n < body_.num_nodes(); ++n) {
+    if (joint_at_node_[n] < 0) continue;
+    // The limbs hang from the trunk in more ways than one.
+    const int link = body_.nodes[n].link;
+    const bool of_limb = link > kHead && body_.nodes[body_.nodes[n].parent].link > kHead;
+    int above = of_limb ? joint_at_node_[body_.nodes[n].parent] : map_.root;
+    if (above < 0) above = map_.root;
+    detached_[n] = rig_.joints[joint_at_node_[n]].can_translate &&
+                   !DescendsFrom(rig_, joint_at_node_[n], above);
+    if (detached_[n]) freedom_.shifts[joint_at_node_[n]] = 1;
+  }
+}
+
+int RigBinding::Mover() const {
+  int mover = map_.root;
+  while (!rig_.joints[mover].translates && rig_.joints[mover].parent >= 0) {
+    mover = rig_.joints[mover].parent;
+  }
+  return mover;
+}
+
+RigFrame RigBinding::TurnBones(const RigFrame& captured, const Pose& solved) const {
   const World world = ToWorld(captured);
   const std::vector<Quat> before = LinkRotations(world);
   std::vector<Quat> edit(kNumLinks), after(kNumLinks);
@@ -104,18 +152,38 @@ RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
     out.translation[j] = ratio_ * captured.translation[j];
   }
   TurnTwistHelpers(captured, &out);
-  // The root goes where it was solved to, moved by the joint that the file moves.
-  int mover = map_.root;
-  while (!rig_.joints[mover].translates && rig_.joints[mover].parent >= 0) {
-    mover = rig_.joints[mover].parent;
-  }
-  const double own_scale = scale_ / ratio_;
-  const PosedRig posed = PoseRig(rig_, out);
-  const Vec3 target = up_.conjugate() * solved.root_position / own_scale;
-  const int above = rig_.joints[mover].parent;
-  const Quat turn = above < 0 ? Quat::Identity() : posed.rotation[above];
-  out.translation[mover] += turn.conjugate() * (target - posed.position[map_.root]);
   return out;
+}
+
+RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
+  RigFrame out = TurnBones(captured, solved);
+  const double own_scale = scale_ / ratio_;
+  const auto to_file = [&](const Vec3& p) -> Vec3 { return up_.conjugate() * p / own_scale; };
+  // The root goes where it was solved to, moved by the joint that the file moves.
+  MoveJoint(rig_, Mover(), map_.root, to_file(solved.root_position), &out);
+  if (std::find(detached_.begin(), detached_.end(), 1) == detached_.end()) return out;
+  const PosedBody posed = PoseBody(body_, solved);
+  for (size_t n = 0; n < detached_.size(); ++n) {
+    const int joint = joint_at_node_[n];
+    if (detached_[n]) MoveJoint(rig_, joint, joint, to_file(posed.node[n]), &out);
+  }
+  return out;
+}
+
+RigFrame RigBinding::Fitted(const RigFrame& captured, const Pose& solved) const {
+  const double own_scale = scale_ / ratio_;
+  const PosedBody posed = PoseBody(body_, solved);
+  std::vector<RigTarget> targets;
+  for (size_t n = 0; n < joint_at_node_.size(); ++n) {
+    if (joint_at_node_[n] < 0) continue;
+    targets.push_back({joint_at_node_[n], up_.conjugate() * posed.node[n] / own_scale});
+  }
+  RigFreedom freedom = freedom_;
+  for (int j = 0; !captured.scale.empty() && j < rig_.num_joints(); ++j) {
+    // Where bones change their lengths as they turn, turns alone cannot reach.
+    if (rig_.joints[j].can_translate && DescendsFrom(rig_, j, map_.root)) freedom.shifts[j] = 1;
+  }
+  return FitFrame(rig_, freedom, targets, own_scale, Apply(captured, solved));
 }
 
 std::vector<LockedAxis> RigBinding::LockedAxesOf(const RigFrame& frame) const {

@@ -15,6 +15,7 @@ EditCurve::EditCurve(const Clip& before, const Clip& after) : fps_(before.fps) {
     for (size_t l = 0; l < p.rotation.size(); ++l) {
       edit.push_back(LogSo3(p.rotation[l].conjugate() * q.rotation[l]));
     }
+    for (const Vec3& v : edit) is_zero_ = is_zero_ && v.norm() < 1e-9;
     edit_.push_back(std::move(edit));
   }
 }
@@ -54,7 +55,8 @@ RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double
   for (int i = 0; i < keys; ++i) {
     const double time = i * captured.frame_time;
     const RigFrame frame = SampleRig(captured, start + time);
-    out.frames.push_back(binding.Apply(frame, edit.Apply(place(binding.PoseOf(frame)), time)));
+    const Pose pose = edit.Apply(place(binding.PoseOf(frame)), time);
+    out.frames.push_back(edit.is_zero() ? binding.Apply(frame, pose) : binding.Fitted(frame, pose));
   }
   return out;
 }
