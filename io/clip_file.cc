@@ -275,6 +275,30 @@ RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& file
   return ParseBvh(first.bytes, first.name).motion;
 }
 
+PlayedFile PlayedFileOf(const ClipFile& original, const std::vector<NamedBytes>& files) {
+  PlayedFile played;
+  played.format = original.format;
+  played.name = files[0].name;
+  played.bytes = files[0].bytes;
+  if (original.format == "Acclaim") {
+    played.skeleton = files[1].bytes;
+    played.fps = 1 / original.motion.frame_time;
+  }
+  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
+    played.folder = gltf->folder;
+    played.animation = kAnimationName;
+  }
+  return played;
+}
+
+PlayedJoint JointInFile(const ClipFile& original, int joint) {
+  PlayedJoint played{original.motion.rig.joints[joint].name};
+  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
+    played.node = gltf->joints[joint].node;
+  }
+  return played;
+}
+
 ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem) {
   const std::vector<std::string> names = NamesOfClipFile(original, stem);
   ClipPath path;

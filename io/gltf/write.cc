@@ -54,8 +54,7 @@ NodeKeys KeysOf(const GltfJoint& joint, size_t j, const std::vector<RigFrame>& f
   if (!moves) keys.translation.clear();
   if (joint.changes_scale) {
     for (const RigFrame& frame : frames) {
-      keys.scale.push_back(frame.scale.empty() ? joint.scale
-                                               : Vec3(joint.size * frame.scale[j]));
+      keys.scale.push_back(frame.scale.empty() ? joint.scale : Vec3(joint.size * frame.scale[j]));
     }
   } else if ((joint.scale - joint.rest_scale).cwiseAbs().maxCoeff() > kStill) {
     keys.scale.assign(frames.size(), joint.scale);

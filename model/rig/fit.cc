@@ -172,9 +172,8 @@ class Fit {
     double longest = 0;
     for (int j = 0; j < rig_.num_joints(); ++j) {
       if (turn_column_[j] < 0) continue;
-      const int count = rig_.joints[j].turns_freely
-                            ? 3
-                            : static_cast<int>(rig_.joints[j].turn_axes.size());
+      const int count =
+          rig_.joints[j].turns_freely ? 3 : static_cast<int>(rig_.joints[j].turn_axes.size());
       longest = std::max(longest, change.segment(turn_column_[j], count).norm());
     }
     return longest;

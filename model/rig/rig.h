@@ -52,9 +52,9 @@ struct RigMotion {
   int num_frames() const { return static_cast<int>(frames.size()); }
 };
 
-// World transform of every joint (file units, file axes). Positions are exact: below an uneven scale
-// that is not its axes turn with the joints, so that what hangs there is sheared. `rotation` is the
-// product of the rotations alone.
+// World transform of every joint (file units, file axes). Positions are exact: below an uneven
+// scale that is not its axes turn with the joints, so that what hangs there is sheared. `rotation`
+// is the product of the rotations alone.
 struct PosedRig {
   std::vector<Quat> rotation;
   std::vector<Vec3> position;
@@ -65,7 +65,8 @@ struct PosedRig {
 PosedRig PoseRig(const Rig& rig, const RigFrame& frame);
 
 // Frame at `time` seconds (clamped to the clip): linear in translations and scales,
-// spherical-linear in rotations. A time within a thousandth of a frame of a key gives that key itself.
+// spherical-linear in rotations. A time within a thousandth of a frame of a key gives that key
+// itself.
 RigFrame SampleRig(const RigMotion& motion, double time);
 
 // Which rig joint plays which part. Indices of rig joints, -1 where the rig has none.
