@@ -73,7 +73,8 @@ class AcclaimPlayer {
       more = false;
       for (size_t b = 0; b < bones_.size(); ++b) {
         const int above = bones_[b].parent;
-        if (place[b] >= 0 || (b > 0 && (above < 0 || place[static_cast<size_t>(above)] < 0))) continue;
+        if (place[b] >= 0 || (b > 0 && (above < 0 || place[static_cast<size_t>(above)] < 0)))
+          continue;
         place[b] = static_cast<int>(order.size());
         order.push_back(static_cast<int>(b));
         more = true;
@@ -192,7 +193,8 @@ class AcclaimPlayer {
       if (axis < 0 || axis > 2) continue;
       const double value = Number(words, k + 1);
       if (bone.dofs[k][0] == 't') shift[axis] = value;
-      if (bone.dofs[k][0] == 'r') turn = Eigen::AngleAxisd(Angle() * value, Vec3::Unit(axis)) * turn;
+      if (bone.dofs[k][0] == 'r')
+        turn = Eigen::AngleAxisd(Angle() * value, Vec3::Unit(axis)) * turn;
     }
     out.translation += b == 0 ? shift : bone.axes * shift;
     out.rotation = bone.axes * turn * bone.axes.conjugate();

@@ -34,7 +34,9 @@ class BvhPlayer {
   // The next word from `at`, which is left behind it; braces are words of their own.
   std::string Word(size_t* at) const {
     const std::string& text = file_.bytes;
-    const auto is_space = [&](size_t i) { return std::isspace(static_cast<unsigned char>(text[i])); };
+    const auto is_space = [&](size_t i) {
+      return std::isspace(static_cast<unsigned char>(text[i]));
+    };
     while (*at < text.size() && is_space(*at)) ++*at;
     const size_t begin = *at;
     while (*at < text.size() && !is_space(*at)) {
@@ -78,7 +80,8 @@ class BvhPlayer {
       } else if (word == "}" && !open.empty()) {
         open.pop_back();
       } else if (word == "offset" && !open.empty() && open.back() >= 0) {
-        for (int c = 0; c < 3; ++c) bones_[static_cast<size_t>(open.back())].offset[c] = Number(&at);
+        for (int c = 0; c < 3; ++c)
+          bones_[static_cast<size_t>(open.back())].offset[c] = Number(&at);
       } else if (word == "channels" && !open.empty() && open.back() >= 0) {
         for (int count = static_cast<int>(Number(&at)); count > 0; --count) {
           bones_[static_cast<size_t>(open.back())].channels.push_back(Lower(Word(&at)));

@@ -113,8 +113,10 @@ class GltfPlayer {
       Fail("an animation's numbers are not plain floats");
     }
     const std::string& data = Buffer(view.at("buffer").get<size_t>());
-    const size_t stride = view.value("byteStride", 4 * width), count = accessor.at("count").get<size_t>();
-    const size_t begin = view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});
+    const size_t stride = view.value("byteStride", 4 * width),
+                 count = accessor.at("count").get<size_t>();
+    const size_t begin =
+        view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});
     std::vector<double> out;
     for (size_t i = 0; i < count; ++i) {
       for (size_t c = 0; c < width; ++c) {
@@ -190,9 +192,9 @@ class GltfPlayer {
       last_ = std::max(last_, track.times.back());
       tracks_.push_back(std::move(track));
       Node& node = nodes_.at(target.at("node").get<size_t>());
-      (path == "rotation"  ? node.rotation
-       : path == "scale"   ? node.scale
-                           : node.translation) = &tracks_.back();
+      (path == "rotation" ? node.rotation
+       : path == "scale"  ? node.scale
+                          : node.translation) = &tracks_.back();
     }
     if (tracks_.empty()) Fail("the animation " + file_.animation + " moves nothing");
   }

@@ -1,6 +1,6 @@
 // Written files played by the rules of their formats alone, to check what was written. Shares no
-// code with the readers and writers of clips (io/bvh, io/acclaim, io/gltf/read.cc): it knows no rig,
-// no units and no body, multiplies matrices from the root to the joint, and tells where joints
+// code with the readers and writers of clips (io/bvh, io/acclaim, io/gltf/read.cc): it knows no
+// rig, no units and no body, multiplies matrices from the root to the joint, and tells where joints
 // stand. What it takes for granted, such as well-formed numbers, the readers have checked.
 #pragma once
 
@@ -34,8 +34,9 @@ struct Played {
 };
 
 // Where `joints` stand at `times` (s from the first key, held beyond the last). Between keys
-// translations and scales are linear, rotations spherical-linear, as glTF has it. Throws InputError,
-// one line that begins with the file's name, where the file has no such joint or cannot be played.
+// translations and scales are linear, rotations spherical-linear, as glTF has it. Throws
+// InputError, one line that begins with the file's name, where the file has no such joint or cannot
+// be played.
 Played Play(const PlayedFile& file, const std::vector<PlayedJoint>& joints,
             const std::vector<double>& times);
 

@@ -104,6 +104,10 @@ void RigBinding::FindFreedom() {
     freedom_.shifts[j] = rig_.joints[j].translates && DescendsFrom(rig_, j, map_.root);
   }
   freedom_.shifts[Mover()] = 1;
+  for (int j = 0; j < count; ++j) {
+    const bool loose = !DescendsFrom(rig_, j, map_.root) && !DescendsFrom(rig_, map_.root, j);
+    has_loose_joints_ = has_loose_joints_ || (loose && !IsOthers(TopOf(rig_, j)));
+  }
   detached_.assign(joint_at_node_.size(), 0);
   for (int n = 1; n < body_.num_nodes(); ++n) {
     if (joint_at_node_[n] < 0) continue;
@@ -116,6 +120,18 @@ void RigBinding::FindFreedom() {
                    !DescendsFrom(rig_, joint_at_node_[n], above);
     if (detached_[n]) freedom_.shifts[joint_at_node_[n]] = 1;
   }
+}
+
+// Whether a tree of joints that the root does not hang from is another figure's.
+bool RigBinding::IsOthers(int top) const {
+  if (DescendsFrom(rig_, map_.root, top)) return false;
+  int own = 0, others = 0;
+  const int tree = TopOf(rig_, map_.root);
+  for (int j = 0; j < rig_.num_joints(); ++j) {
+    own += DescendsFrom(rig_, j, tree) ? 1 : 0;
+    others += DescendsFrom(rig_, j, top) ? 1 : 0;
+  }
+  return 2 * others > own;
 }
 
 int RigBinding::Mover() const {
@@ -155,7 +171,51 @@ RigFrame RigBinding::TurnBones(const RigFrame& captured, const Pose& solved) con
   return out;
 }
 
+RigFrame RigBinding::Placed(const RigFrame& frame, const Quat& turn, const Vec3& shift) const {
+  if (!has_loose_joints_) return frame;  // the root takes all along
+  const Quat turn_file = up_.conjugate() * turn * up_;
+  const Vec3 shift_file = up_.conjugate() * shift / scale_;
+  RigFrame out = frame;
+  const PosedRig posed = PoseRig(rig_, frame);
+  std::vector<char> placed(rig_.joints.size(), 0);  // itself, or with what it hangs from
+  for (int j = 0; j < rig_.num_joints(); ++j) {
+    const int parent = rig_.joints[j].parent;
+    placed[j] = parent >= 0 ? placed[parent] : IsOthers(j);
+    if (placed[j] || !rig_.joints[j].can_translate || (parent >= 0 && !posed.linear.empty())) {
+      continue;
+    }
+    placed[j] = 1;
+    const Quat above = parent < 0 ? Quat::Identity() : posed.rotation[parent];
+    const Vec3 origin = parent < 0 ? Vec3::Zero() : posed.position[parent];
+    out.rotation[j] = above.conjugate() * turn_file * posed.rotation[j];
+    out.translation[j] = above.conjugate() * (turn_file * posed.position[j] + shift_file - origin);
+  }
+  return out;
+}
+
+// Joints that go with a bone they do not hang from: the bone takes them along.
+void RigBinding::Follow(const RigFrame& captured, RigFrame* out) const {
+  if (followers_.empty()) return;
+  const PosedRig before = PoseRig(rig_, captured);
+  for (const auto& [joint, bone] : followers_) {
+    const PosedRig posed = PoseRig(rig_, *out);
+    const Quat turn = posed.rotation[bone] * before.rotation[bone].conjugate();
+    const int parent = rig_.joints[joint].parent;
+    const Quat above = parent < 0 ? Quat::Identity() : posed.rotation[parent];
+    out->rotation[joint] = (above.conjugate() * turn * before.rotation[joint]).normalized();
+    if (!rig_.joints[joint].can_translate) continue;
+    const Vec3 arm = ratio_ * (before.position[joint] - before.position[bone]);
+    MoveJoint(rig_, joint, joint, posed.position[bone] + turn * arm, out);
+  }
+}
+
 RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
+  RigFrame out = Bend(captured, solved);
+  Follow(captured, &out);
+  return out;
+}
+
+RigFrame RigBinding::Bend(const RigFrame& captured, const Pose& solved) const {
   RigFrame out = TurnBones(captured, solved);
   const double own_scale = scale_ / ratio_;
   const auto to_file = [&](const Vec3& p) -> Vec3 { return up_.conjugate() * p / own_scale; };
@@ -183,7 +243,9 @@ RigFrame RigBinding::Fitted(const RigFrame& captured, const Pose& solved) const 
     // Where bones change their lengths as they turn, turns alone cannot reach.
     if (rig_.joints[j].can_translate && DescendsFrom(rig_, j, map_.root)) freedom.shifts[j] = 1;
   }
-  return FitFrame(rig_, freedom, targets, own_scale, Apply(captured, solved));
+  RigFrame out = FitFrame(rig_, freedom, targets, own_scale, Bend(captured, solved));
+  Follow(captured, &out);
+  return out;
 }
 
 std::vector<LockedAxis> RigBinding::LockedAxesOf(const RigFrame& frame) const {

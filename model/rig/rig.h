@@ -86,6 +86,12 @@ struct JointMap {
   int head_top = -1;  // a joint at the vertex (HeadTop_End), where there is one
 };
 
+// A joint that goes with a bone which it does not hang from, as a target of inverse kinematics
+// does.
+struct RigFollower {
+  int joint = -1, bone = -1;
+};
+
 // What was recognised in a file.
 struct RigFacts {
   JointMap map;
@@ -96,6 +102,7 @@ struct RigFacts {
   std::vector<int> t_pose_frames;           // at the start of the clip
   double confidence = 1;                    // 0 to 1: how far names and shape agree with the map
   std::vector<std::string> virtual_joints;  // the project's joints that no bone plays
+  std::vector<RigFollower> followers;       // parents before their children
   double facing = 0;               // rad about up from the file's +z (up y) or -y (up z), standing
   std::vector<std::string> notes;  // warnings for the user, one line each
 };

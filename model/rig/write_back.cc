@@ -43,6 +43,22 @@ Pose EditCurve::Apply(const Pose& pose, double time) const {
   return out;
 }
 
+namespace {
+
+RigFrame PlacedFrame(const RigBinding& binding, const RigFrame& captured,
+                     const std::function<Pose(const Pose&)>& place) {
+  const Pose there = binding.PoseOf(captured), placed = place(there);
+  const Quat turn = placed.rotation[0] * there.rotation[0].conjugate();
+  return binding.Placed(captured, turn, placed.root_position - turn * there.root_position);
+}
+
+}  // namespace
+
+RigFrame WrittenFrame(const RigBinding& binding, const RigFrame& captured,
+                      const std::function<Pose(const Pose&)>& place, const Pose& solved) {
+  return binding.Fitted(PlacedFrame(binding, captured, place), solved);
+}
+
 RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double start,
                     const std::function<Pose(const Pose&)>& place, const Clip& source,
                     const Clip& solved) {
@@ -56,7 +72,8 @@ RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double
     const double time = i * captured.frame_time;
     const RigFrame frame = SampleRig(captured, start + time);
     const Pose pose = edit.Apply(place(binding.PoseOf(frame)), time);
-    out.frames.push_back(edit.is_zero() ? binding.Apply(frame, pose) : binding.Fitted(frame, pose));
+    out.frames.push_back(edit.is_zero() ? binding.Apply(PlacedFrame(binding, frame, place), pose)
+                                        : WrittenFrame(binding, frame, place, pose));
   }
   return out;
 }

@@ -23,6 +23,12 @@ class EditCurve {
   std::vector<std::vector<Vec3>> edit_;  // [frames][1 + links]: translation, then rotation vectors
 };
 
+// A captured frame with a solved posture in place of its own (RigBinding::Fitted), and what does
+// not hang from the root placed with the figure: `place`, a rigid motion, lays a captured pose into
+// the scene.
+RigFrame WrittenFrame(const RigBinding& binding, const RigFrame& captured,
+                      const std::function<Pose(const Pose&)>& place, const Pose& solved);
+
 // The solved motion on the rig, keyed at the rig's own rate over the solved span: key i at
 // `start` + i * frame_time of the captured motion. `place` lays a captured pose into the scene;
 // `source` is the placed clip at the output rate and `solved` the result. Where they differ the
