@@ -86,7 +86,7 @@ class SkeletonBuilder {
   // Whether a node's scale changes in the animation.
   bool ChangesScale(int node) const {
     const auto track = tracks_.scale.find(node);
-    return track != tracks_.scale.end() && !track->second.IsConstant(0);
+    return track != tracks_.scale.end() && !track->second.IsConstant(kUniform);
   }
 
   // Whether a node does to what hangs from it more than move, turn and enlarge it for good.
@@ -247,17 +247,14 @@ class SkeletonBuilder {
       uneven += IsUniform(joint.scale) ? 0 : 1;
       changing += joint.changes_scale ? 1 : 0;
     }
+    constexpr const char* kBones =
+        "bones below change their lengths, and may get keys of "
+        "translation in what is written";
     if (uneven > 0) {
-      clip_.notes.push_back(fmt::format(
-          "{} node{} scaled unevenly: bones below change their lengths as they turn, and may get "
-          "keys of translation in what is written",
-          uneven, uneven == 1 ? " is" : "s are"));
+      clip_.notes.push_back(fmt::format("nodes that are scaled unevenly: {}; {}", uneven, kBones));
     }
     if (changing > 0) {
-      clip_.notes.push_back(fmt::format(
-          "{} node{} scale during the animation: bones below may get keys of translation in what "
-          "is written",
-          changing, changing == 1 ? " changes its" : "s change their"));
+      clip_.notes.push_back(fmt::format("nodes that change their scale: {}; {}", changing, kBones));
     }
   }
 

@@ -84,8 +84,8 @@ PosedRig RestOf(const Rig& rig) {
   return PoseRig(rig, rest);
 }
 
-// Whether `foot` stands at the end of a shin in a pose: as far below the knee as a shin is long, and
-// at the shin bone's own end where it has one.
+// Whether `foot` stands at the end of a shin in a pose: as far below the knee as a shin is long,
+// and at the shin bone's own end where it has one.
 bool EndsShin(const Rig& rig, const PosedRig& pose, const Side& side, int foot) {
   constexpr double kShin = 0.246 / 0.245, kShortest = 0.7, kLongest = 1.4;  // of the thigh
   constexpr double kOff = 0.15;                                             // of the shin
@@ -136,7 +136,8 @@ class FollowerFinder {
       int target = ByName(j);
       const bool apart = !DescendsFrom(rig_, j, map_.root);
       if (target < 0) target = ByLimb(j);
-      if (target < 0 && apart && (TopOf(rig_, j) == tree || IsSmall(TopOf(rig_, j)))) target = ByPlace(j);
+      if (target < 0 && apart && (TopOf(rig_, j) == tree || IsSmall(TopOf(rig_, j))))
+        target = ByPlace(j);
       if (target >= 0 && !DescendsFrom(rig_, j, target)) out.push_back({j, target});
     }
     return out;
@@ -194,7 +195,8 @@ class FollowerFinder {
     return distance(map_.left) <= distance(map_.right) ? 1 : -1;
   }
 
-  // The bone at whose joint, or in whose frame, the joint stands throughout; -1 where there is none.
+  // The bone at whose joint, or in whose frame, the joint stands throughout; -1 where there is
+  // none.
   int ByPlace(int joint) const {
     constexpr double kAt = 0.03, kSteady = 0.005, kMoves = 0.03;  // of the figure
     const bool moves = Spread(joint, rig_.joints[joint].parent) > kMoves * size_;

@@ -9,8 +9,8 @@
 
 namespace retarget::io {
 
-// Gives `map` the ankles (and toes) that it lacks, where a bone is called a foot or an ankle of that
-// side and stands at the end of the shin, whatever it hangs from. Returns their names.
+// Gives `map` the ankles (and toes) that it lacks, where a bone is called a foot or an ankle of
+// that side and stands at the end of the shin, whatever it hangs from. Returns their names.
 std::vector<std::string> FindLooseFeet(const RigMotion& motion, JointMap* map);
 
 // The bones that `map` does not use, that hang neither from its root nor above it nor from the bone
