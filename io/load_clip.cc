@@ -48,10 +48,15 @@ RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& 
     }
   }
   if (!options.up.empty()) recognise.up = options.up[0];
+  if (options.ik_targets != "follow" && options.ik_targets != "keep") {
+    throw InputError(fmt::format("{} {}: expected follow or keep",
+                                 options.Named(options.words.ik_targets), options.ik_targets));
+  }
   return recognise;
 }
 
 void Bind(LoadedClip* clip) {
+  if (clip->options.ik_targets == "keep") clip->facts.followers.clear();
   const int chest = ChestBone(clip->file.motion, clip->facts.map);
   try {
     clip->binding =

@@ -30,6 +30,11 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
   app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
+  app->add_option("--ik-targets" + suffix, clip->ik_targets,
+                  "what targets of inverse kinematics do: follow their limbs, or keep")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"follow", "keep"}))
+      ->group(group);
   if (!solve) return;
   app->add_option("--character" + suffix, clip->character,
                   "put the motion on this character (glTF, VRM, BVH) and solve on its body")
