@@ -32,7 +32,8 @@ LoadedClip ReadClip(const ClipOptions& options) {
 
 // What the options, the map file and the format say, in this order.
 RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& file) {
-  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map, options.words};
+  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map, options.words,
+                             options.stature};
   if (!options.map.empty()) {
     MapFile map = ReadMap(options.map, file.motion.rig);
     if (map.metres_per_unit) recognise.metres_per_unit = map.metres_per_unit;
@@ -42,7 +43,7 @@ RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& 
   if (!options.units.empty()) {
     recognise.metres_per_unit = ParseUnits(options.units);
     if (!recognise.metres_per_unit) {
-      throw InputError(fmt::format("{} {}: expected cm, m, mm, in, cmu or metres per unit",
+      throw InputError(fmt::format("{} {}: expected cm, m, mm, dm, in, cmu or metres per unit",
                                    options.Named(options.words.units), options.units));
     }
   }

@@ -2,7 +2,8 @@
 // reader takes every dialect that can be read in only one way, and refuses the rest with the line.
 //
 // Conventions: R = R_first * R_second * R_third over a joint's rotation channels in file order
-// (degrees). A position channel replaces its axis of the joint's OFFSET, it is not added to it.
+// (degrees). A position channel replaces its axis of the joint's OFFSET, unless the file as a whole
+// can only mean that it is added (BvhFile::adds_offset).
 #pragma once
 
 #include <string>
@@ -19,6 +20,7 @@ inline constexpr int kFirstRotationChannel = 3;
 struct BvhFile {
   RigMotion motion;                        // frame time snapped, see SnappedFrameTime
   std::vector<std::vector<int>> channels;  // kinds per joint, in file order
+  std::vector<bool> adds_offset;           // [joints] position channels are added to its OFFSET
   std::string hierarchy_text;              // everything before "MOTION", byte for byte
   std::string frame_time_text;             // as written
   bool crlf = false;                       // the first line ends in CR LF

@@ -15,6 +15,7 @@ struct RecogniseOptions {
   std::optional<char> up;                      // 'y' or 'z'
   std::optional<JointMap> map = std::nullopt;  // of a map file: nothing is guessed
   OptionWords words = {};                      // what messages call these
+  double stature = 0;  // m, 0: not given; settles the unit where nothing else does
 };
 
 // Recognises the human of a motion. Throws InputError, one line that begins with `file_name`,
@@ -26,8 +27,8 @@ RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
 // the root (CMU's Spine1 sits on the neck); -1 where none does.
 int ChestBone(const RigMotion& motion, const JointMap& map);
 
-// "m", "cm", "mm", "in", "cmu" (the unit of CMU's raw data, 0.45 in^-1: 0.0564 m) or a positive
-// number of metres; nothing for other texts.
+// "m", "cm", "mm", "dm", "in", "cmu" (the unit of CMU's raw data, 0.45 in^-1: 0.0564 m) or a
+// positive number of metres; nothing for other texts.
 std::optional<double> ParseUnits(const std::string& text);
 
 // For people: what was recognised, one fact a line, then the joints.

@@ -79,7 +79,7 @@ struct JointMap {
 struct RigFacts {
   JointMap map;
   double metres_per_unit = 0.01;
-  std::string unit_name = "cm";             // "m", "cm", "in", "cmu", "mm" or the number
+  std::string unit_name = "cm";             // "m", "cm", "mm", "dm", "in", "cmu" or number
   char up = 'y';                            // 'y' or 'z'
   double stature = 0;                       // m
   std::vector<int> t_pose_frames;           // at the start of the clip
