@@ -43,6 +43,10 @@ BvhFile ParseBvh(std::string_view text, const std::string& name);
 // World positions come back within 1e-6 of the figure's size.
 std::string FormatBvh(const BvhFile& original, const RigMotion& motion, double offset_scale = 1.0);
 
+// The file with some of its joints alone, `joints` in order and with all that carry them: what
+// FormatBvh writes has the others no more.
+BvhFile CutBvh(const BvhFile& file, const std::vector<int>& joints);
+
 // Writers round the frame time: a rate within 2e-4 of an integer (120.005, 29.9997) is that
 // integer. Others (23.976) stay. In and out: s.
 double SnappedFrameTime(double frame_time);

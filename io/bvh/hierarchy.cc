@@ -51,6 +51,7 @@ class HierarchyReader {
   };
 
   void Open(int parent) {
+    const size_t begin = cursor_.position() - (parent < 0 ? 4 : 5);  // ROOT, JOINT
     const std::string_view name = cursor_.RestAsName();
     if (name.empty()) cursor_.Fail("a joint without a name", "a name on the same line");
     if (out_.rig.joints.size() >= kMaxJoints) {
@@ -65,6 +66,7 @@ class HierarchyReader {
     joint.parent = parent;
     out_.rig.joints.push_back(std::move(joint));
     out_.channels.emplace_back();
+    out_.joint_text.emplace_back(begin, begin);
     out_.second_offset.emplace_back();
     out_.offset_line.push_back(0);
     open_.push_back({out_.rig.num_joints() - 1});
@@ -98,6 +100,7 @@ class HierarchyReader {
         cursor_.Fail("the end of joint " + QuotedWord(out_.rig.joints[joint.joint].name),
                      "its OFFSET");
       }
+      out_.joint_text[joint.joint].second = cursor_.position();
       open_.pop_back();
     } else {
       cursor_.FailAtToken(word, "OFFSET, CHANNELS, JOINT, End Site or }");

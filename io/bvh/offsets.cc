@@ -23,7 +23,8 @@ double DistanceFrom(const BvhFile& file, size_t joint, const Vec3& place) {
   for (size_t f = 0; f < frames.size(); f += step) {
     Vec3 off = Vec3::Zero();
     for (const int kind : file.channels[joint]) {
-      if (kind < kFirstRotationChannel) off[kind] = frames[f].translation[joint][kind] - place[kind];
+      if (kind < kFirstRotationChannel)
+        off[kind] = frames[f].translation[joint][kind] - place[kind];
     }
     distances.push_back(off.norm());
   }
@@ -64,7 +65,8 @@ void AddOffsetsToDisplacements(BvhFile* file) {
     }
   }
   file->warnings.push_back(
-      "the position channels below the root are near zero and the OFFSETs are not: they are read as "
+      "the position channels below the root are near zero and the OFFSETs are not: they are read "
+      "as "
       "displacements from the OFFSETs");
 }
 

@@ -11,8 +11,8 @@
 namespace retarget::io {
 
 enum class BodyPart {
-  kNone,      // the words name no part of the body
-  kHelper,    // twist, IK target, end, finger of a toe, hair: a bone that plays no joint
+  kNone,    // the words name no part of the body
+  kHelper,  // twist, IK target, end, finger of a toe, hair: a bone that plays no joint
   kTrunk,
   kNeck,
   kHead,

@@ -27,21 +27,15 @@ struct Role {
 };
 using Limb = std::array<Role, 4>;
 constexpr Fit kNoFit = {BodyPart::kNone, 0};
-constexpr Limb kArm = {{{&Side::clavicle,
-                         false,
-                         {{{BodyPart::kClavicle, 4}, {BodyPart::kShoulder, 2}, kNoFit, kNoFit}}},
-                        {&Side::shoulder,
-                         true,
-                         {{{BodyPart::kUpperArm, 4},
-                           {BodyPart::kShoulder, 2},
-                           {BodyPart::kArm, 2},
-                           kNoFit}}},
-                        {&Side::elbow,
-                         true,
-                         {{{BodyPart::kForearm, 4}, {BodyPart::kArm, 1}, kNoFit, kNoFit}}},
-                        {&Side::wrist,
-                         false,
-                         {{{BodyPart::kWrist, 4}, {BodyPart::kHand, 3}, kNoFit, kNoFit}}}}};
+constexpr Limb kArm = {
+    {{&Side::clavicle,
+      false,
+      {{{BodyPart::kClavicle, 4}, {BodyPart::kShoulder, 2}, kNoFit, kNoFit}}},
+     {&Side::shoulder,
+      true,
+      {{{BodyPart::kUpperArm, 4}, {BodyPart::kShoulder, 2}, {BodyPart::kArm, 2}, kNoFit}}},
+     {&Side::elbow, true, {{{BodyPart::kForearm, 4}, {BodyPart::kArm, 1}, kNoFit, kNoFit}}},
+     {&Side::wrist, false, {{{BodyPart::kWrist, 4}, {BodyPart::kHand, 3}, kNoFit, kNoFit}}}}};
 constexpr Limb kLeg = {
     {{&Side::hip,
       true,
@@ -123,8 +117,8 @@ class WordMatcher {
   NameMatch Match() {
     NameMatch match;
     match.map.profile = "words";
-    for (const auto& [side, joints] : {std::pair(BodySide::kLeft, &match.map.left),
-                                       {BodySide::kRight, &match.map.right}}) {
+    for (const auto& [side, joints] :
+         {std::pair(BodySide::kLeft, &match.map.left), {BodySide::kRight, &match.map.right}}) {
       FindLimb(kArm, side, joints);
       FindLimb(kLeg, side, joints);
     }
@@ -137,9 +131,10 @@ class WordMatcher {
     }
     for (const auto& [side, name] :
          {std::pair(&match.map.left, "left_"), {&match.map.right, "right_"}}) {
-      for (const auto& [part, joint] :
-           {std::pair("shoulder", side->shoulder), {"elbow", side->elbow},
-            {"hip", side->hip}, {"knee", side->knee}}) {
+      for (const auto& [part, joint] : {std::pair("shoulder", side->shoulder),
+                                        {"elbow", side->elbow},
+                                        {"hip", side->hip},
+                                        {"knee", side->knee}}) {
         if (joint < 0) match.missing.push_back(std::string(name) + part);
       }
     }
@@ -433,8 +428,7 @@ class PartFiller {
     if (map_.head >= 0) return;
     JointMap by_words = map_;
     by_words.head = HeadByWords(rig_, words_, map_);
-    if (ArrangeByWords(rig_, words_, &by_words) &&
-        (by_words.head >= 0 || map_.neck.empty())) {
+    if (ArrangeByWords(rig_, words_, &by_words) && (by_words.head >= 0 || map_.neck.empty())) {
       map_ = by_words;
     }
     if (map_.head >= 0) return;

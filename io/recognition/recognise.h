@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/recognition/option_words.h"
 #include "model/rig/rig.h"
@@ -31,12 +32,15 @@ int ChestBone(const RigMotion& motion, const JointMap& map);
 // positive number of metres; nothing for other texts.
 std::optional<double> ParseUnits(const std::string& text);
 
-// For people: what was recognised, one fact a line, then the joints.
-std::string MapTable(const RigFacts& facts, const RigMotion& motion);
+// For people: what was recognised, one fact a line, then the joints. `figures`: the names of all in
+// the file, where there are several.
+std::string MapTable(const RigFacts& facts, const RigMotion& motion,
+                     const std::vector<std::string>& figures = {});
 
 // For programs: an object {profile, confidence (0 to 1), units (metres per unit), unit_name, up,
 // facing_deg, stature_m, frames, fps, joints: {project's name: bone}, virtual: [project's name],
-// unmapped: [bone], t_pose_frames: [frame from 0], notes: [text]}.
-std::string MapJson(const RigFacts& facts, const RigMotion& motion);
+// unmapped: [bone], t_pose_frames: [frame from 0], notes: [text], figures: [name]}.
+std::string MapJson(const RigFacts& facts, const RigMotion& motion,
+                    const std::vector<std::string>& figures = {});
 
 }  // namespace retarget::io

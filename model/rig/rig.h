@@ -75,6 +75,22 @@ struct JointMap {
   int head_top = -1;  // a joint at the vertex (HeadTop_End), where there is one
 };
 
+// Calls visit(int* joint) for every joint of a map, absent ones included.
+template <typename Visit>
+void VisitJoints(JointMap* map, const Visit& visit) {
+  visit(&map->root);
+  for (int& joint : map->spine) visit(&joint);
+  for (int& joint : map->neck) visit(&joint);
+  visit(&map->head);
+  visit(&map->head_top);
+  for (JointMap::Side* s : {&map->left, &map->right}) {
+    for (int* joint : {&s->clavicle, &s->shoulder, &s->elbow, &s->wrist, &s->hand, &s->hip,
+                       &s->knee, &s->ankle, &s->toe}) {
+      visit(joint);
+    }
+  }
+}
+
 // What was recognised in a file.
 struct RigFacts {
   JointMap map;

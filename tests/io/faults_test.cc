@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/gltf/container.h"
 #include "io/load_clip.h"
 #include "tests/test_data.h"
 
@@ -69,6 +70,68 @@ TEST(Faults, PartsAreToldByTheirWords) {
     EXPECT_EQ(joints.at("neck"), "C_neck0001_bind_JNT");
     EXPECT_GE(clip.facts.confidence, 0.95);
   }
+}
+
+TEST(Faults, TwoPeopleOfOneBvhAreReadOneByOne) {
+  SKIP_WITHOUT_SHARED_DATA();
+  const std::string file = "15_two_people_one_bvh/a.bvh";
+  const LoadedClip both = Read(file);
+  EXPECT_EQ(both.file.figures, (std::vector<std::string>{"Hips", "B_Hips"}));
+  EXPECT_EQ(JointsOf(both).at("root"), "Hips");
+  EXPECT_EQ(both.facts.notes.front(),
+            "the file holds 2 figures, 0 \"Hips\", 1 \"B_Hips\": the first one is read; "
+            "#figure=1 after its name selects the next");
+  const LoadedClip first = Read(file + "#figure=0");
+  EXPECT_EQ(JointsOf(first), JointsOf(both));
+  for (const char* select : {"#figure=1", "#figure=B_Hips"}) {
+    const LoadedClip second = Read(file + select);
+    const nlohmann::json expected = JointsOf(first);
+    for (const auto& [part, bone] : expected.items()) {
+      EXPECT_EQ(JointsOf(second).at(part), "B_" + bone.get<std::string>());
+    }
+    // Their frames are the columns of the file, and what is written holds them alone.
+    const RigMotion& all = both.file.motion;
+    const RigMotion& own = second.file.motion;
+    ASSERT_EQ(2 * own.rig.num_joints(), all.rig.num_joints());
+    const RigMotion again = ReadBack(second.file, FormatClipFile(second.file, own, "x", 1));
+    ASSERT_EQ(again.rig.num_joints(), own.rig.num_joints());
+    for (int j = 0; j < own.rig.num_joints(); ++j) {
+      const int k = own.rig.num_joints() + j;
+      EXPECT_EQ(again.rig.joints[j].name, all.rig.joints[k].name);
+      EXPECT_EQ(again.rig.joints[j].offset, all.rig.joints[k].offset);
+      for (int f = 0; f < all.num_frames(); ++f) {
+        EXPECT_EQ(own.frames[f].translation[j], all.frames[f].translation[k]);
+        EXPECT_LT(again.frames[f].rotation[j].angularDistance(all.frames[f].rotation[k]), 1e-6);
+      }
+    }
+  }
+  try {
+    Read(file + "#figure=2");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("no figure \"2\", expected one of 0 \"Hips\", 1 \"B_Hips\""),
+        std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Faults, AVrmAnimationComesBackAsOne) {
+  SKIP_WITHOUT_SHARED_DATA();
+  const LoadedClip clip = Read("11_vrma_first_animation/a.vrma");
+  const auto files = FormatClipFile(clip.file, clip.file.motion, "x", 1);
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files[0].name, "x.vrma");
+  const auto document = nlohmann::json::parse(SplitGltf(files[0].bytes, "x").json);
+  ASSERT_EQ(document.at("animations").size(), 2U);
+  EXPECT_EQ(document.at("animations")[0].at("name"), kAnimationName);
+  const RigMotion again = ReadBack(clip.file, files);
+  EXPECT_EQ(again.num_frames(), clip.file.motion.num_frames());
+  ClipFile character = clip.file;
+  std::get<GltfClip>(character.original).name = "folder/Hero.VRM";
+  EXPECT_EQ(NamesOfClipFile(character, "x"), (std::vector<std::string>{"x.vrm"}));
+  std::get<GltfClip>(character.original).name = "folder/hero.glb";
+  EXPECT_EQ(NamesOfClipFile(character, "x"), (std::vector<std::string>{"x.glb"}));
 }
 
 }  // namespace

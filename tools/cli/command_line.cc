@@ -90,7 +90,8 @@ void CommandLine::AddScene(CLI::App* app) {
   RetargetOptions& o = retarget;
   app->add_option(
       "--clip-a", o.clip[0].path,
-      "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");
+      "first clip: BVH (pair.bvh#figure=1), glTF (hero.glb#animation=Walk,skin=1), VRM, VRMA, or "
+      "SKELETON.asf:CLIP.amc");
   app->add_option("--clip-b", o.clip[1].path, "second clip");
   app->add_option("--template", o.template_path, "template posture (YAML)");
   app->add_option("--config", o.config_path, "weights and settings (YAML; see `retarget config`)");
@@ -99,6 +100,9 @@ void CommandLine::AddScene(CLI::App* app) {
   app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
   app->add_option("--show", o.show, "scene.glb shows capsule figures, or the glTF characters")
       ->check(CLI::IsMember({"figures", "characters"}))
+      ->capture_default_str();
+  app->add_option("--rest", o.rest, "BVH as it begins, or with a T-pose before its first frame")
+      ->check(CLI::IsMember({"keep", "t-pose"}))
       ->capture_default_str();
   app->add_option("--fps", o.fps, "output frame rate")
       ->check(CLI::Range(1.0, 1000.0))

@@ -29,7 +29,10 @@ double WriteBackOf(const report::Json& written, const std::string& folder, int f
   }
   path.select.animation = written.value("animation", "");
   path.select.skin = written.value("skin", "");
-  const RigMotion motion = io::ReadClipFile(path, written.value("fps", io::kAcclaimFps)).motion;
+  path.select.figure = written.value("figure", "");
+  RigMotion motion = io::ReadClipFile(path, written.value("fps", io::kAcclaimFps)).motion;
+  const int rest_frames = std::clamp(written.value("rest_frames", 0), 0, motion.num_frames() - 1);
+  motion.frames.erase(motion.frames.begin(), motion.frames.begin() + rest_frames);
   std::vector<report::NodeJoint> joints;
   for (const auto& [node, bone] : written.at("joints").items()) {
     const int joint = motion.rig.Find(bone.get<std::string>());

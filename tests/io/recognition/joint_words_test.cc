@@ -119,8 +119,8 @@ TEST(JointWords, NamesOfPartsInAnyOrderAreRecognised) {
       // OpenNI, Kinect 1 and what pose estimators write: a hand for a wrist, a foot for an ankle.
       {"torso spine chest neck head", "- #_shoulder #_elbow #_hand #_hip #_knee #_foot -", "left",
        "right"},
-      {"HipCenter Spine ShoulderCenter - Head",
-       "- Shoulder# Elbow# Hand# Hip# Knee# Foot# -", "Left", "Right"},
+      {"HipCenter Spine ShoulderCenter - Head", "- Shoulder# Elbow# Hand# Hip# Knee# Foot# -",
+       "Left", "Right"},
       {"Hip Spine Thorax Neck Head", "- #Shoulder #Elbow #Wrist #Hip #Knee #Foot -", "L", "R"},
       // Blender's numbers, of all bones and of some.
       {"Hips.001 Spine.001 Spine2.001 Neck.001 Head.001",
@@ -152,9 +152,9 @@ TEST(JointWords, NamesOfPartsInAnyOrderAreRecognised) {
 
 // One side's names may be odd where the other's are not.
 TEST(JointWords, ASideIsReadAsTheOtherIs) {
-  JointNames names = NamesOf({"Hips Spine Chest Neck Head",
-                              "#Clav #ArmHi #ForeArm #Hand #Thigh #Shin #Foot #Toe", "Left",
-                              "Right"});
+  JointNames names =
+      NamesOf({"Hips Spine Chest Neck Head", "#Clav #ArmHi #ForeArm #Hand #Thigh #Shin #Foot #Toe",
+               "Left", "Right"});
   names["left_shoulder"] = "LeftUpperArm";
   names["right_knee"] = "x17";
   names["right_ankle"] = "x18";
@@ -187,9 +187,9 @@ TEST(JointWords, TellsWhatTheShapeCannot) {
 
 // What is filled by place is said, and a bone that cannot be meant is left alone.
 TEST(JointWords, PlacesAreToldAndHelpersAreNot) {
-  const JointNames names = NamesOf({"pelvis spine1 spine2 neck head",
-                                    "#_collar #_shoulder #_elbow x#3 #_hip #_knee y#3 -", "left",
-                                    "right"});
+  const JointNames names =
+      NamesOf({"pelvis spine1 spine2 neck head",
+               "#_collar #_shoulder #_elbow x#3 #_hip #_knee y#3 -", "left", "right"});
   RigFigure figure(names);
   const RigFacts facts = Recognise(figure.motion, {}, "f");
   ExpectNames(names, figure.motion, facts);
