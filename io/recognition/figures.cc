@@ -66,12 +66,25 @@ class FigureFinder {
     }
   }
 
-  // A branch below a root, unless a figure stands there already: the layers of a control rig do.
+  // A branch below a root, unless it is a layer of a control rig that has another already.
   void Add(int joint) {
     for (const FileFigure& figure : figures_) {
-      if (StandTogether(figure.joint, joint)) return;
+      const bool layers = IsLayer(figure.joint) || IsLayer(joint);
+      if (layers && StandTogether(figure.joint, joint)) return;
     }
     figures_.push_back({motion_.rig.joints[joint].name, joint});
+  }
+
+  // Whether the names of a branch bear the mark of a layer: "DEF-spine".
+  bool IsLayer(int top) const {
+    constexpr const char* kMarks[] = {"def", "org", "mch", "ctrl", "ctl", "drv", "ik", "fk"};
+    int marked = 0;
+    for (int j = top; j < motion_.rig.num_joints(); ++j) {
+      if (!DescendsFrom(motion_.rig, j, top)) continue;
+      const std::string name = NormalisedName(motion_.rig.joints[j].name);
+      marked += std::ranges::any_of(kMarks, [&](const char* m) { return name.starts_with(m); });
+    }
+    return 2 * marked > below_[top];
   }
 
   // Whether nearly every joint of one branch is where a joint of the other is.

@@ -14,8 +14,8 @@ struct FileFigure {
 };
 
 // The figures of a motion in the order of its joints: the lowest branches that hold a human each,
-// and roots of many joints that are not recognised. Branches of one root that stand in one place
-// throughout (the layers of a control rig) are one figure, the first of them.
+// and roots of many joints that are not recognised. Layers of a control rig ("DEF-spine",
+// "ORG-spine") that stand in one place throughout are one figure, the first of them.
 std::vector<FileFigure> FindFigures(const RigMotion& motion);
 
 // The figure of that name or else number (from 0), or else the branch of the joint of that name.

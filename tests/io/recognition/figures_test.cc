@@ -10,12 +10,19 @@ namespace retarget::io {
 namespace {
 
 JointNames Named(const std::string& mark) {
-  JointNames names = {{"root", "Hips"}, {"spine0", "Spine"}, {"spine1", "Spine1"},
-                      {"neck", "Neck"}, {"head", "Head"}};
+  JointNames names = {{"root", "Hips"},
+                      {"spine0", "Spine"},
+                      {"spine1", "Spine1"},
+                      {"neck", "Neck"},
+                      {"head", "Head"}};
   for (const auto& [side, word] : {std::pair("left_", "Left"), {"right_", "Right"}}) {
-    for (const auto& [part, name] :
-         {std::pair("clavicle", "Shoulder"), {"shoulder", "Arm"}, {"elbow", "ForeArm"},
-          {"wrist", "Hand"}, {"hip", "UpLeg"}, {"knee", "Leg"}, {"ankle", "Foot"}}) {
+    for (const auto& [part, name] : {std::pair("clavicle", "Shoulder"),
+                                     {"shoulder", "Arm"},
+                                     {"elbow", "ForeArm"},
+                                     {"wrist", "Hand"},
+                                     {"hip", "UpLeg"},
+                                     {"knee", "Leg"},
+                                     {"ankle", "Foot"}}) {
       names[std::string(side) + part] = std::string(word) + name;
     }
   }
@@ -95,14 +102,20 @@ TEST(Figures, OfOneNamingAreToldByNumber) {
   EXPECT_EQ(SelectFigure(motion, "Hips", "f").joint, 0);
 }
 
-// The layers of a control rig are one person.
-TEST(Figures, InOnePlaceBelowOneRootAreOne) {
+// The layers of a control rig are one person; two people may stand in one place.
+TEST(Figures, LayersOfARigAreOne) {
   RigMotion motion;
   AddBone("root", -1, &motion);
   Append(RigFigure(Named("ORG-")), 0, 0, &motion);
   Append(RigFigure(Named("DEF-")), 0, 0, &motion);
   Rest(&motion);
   EXPECT_EQ(NamesOf(FindFigures(motion)), (Names{"root"}));
+  RigMotion pair;
+  AddBone("root", -1, &pair);
+  Append(RigFigure(Named("A_")), 0, 0, &pair);
+  Append(RigFigure(Named("B_")), 0, 0, &pair);
+  Rest(&pair);
+  EXPECT_EQ(NamesOf(FindFigures(pair)), (Names{"A_Hips", "B_Hips"}));
 }
 
 TEST(Figures, OneIsOne) {

@@ -128,10 +128,10 @@ TEST(OddClips, ATPoseIsOfBvhAlone) {
   SKIP_WITHOUT_SHARED_DATA();
   const Scratch scratch;
   const std::string vrma = SharedPath("data/faults/11_vrma_first_animation/a.vrma");
-  const Outcome run = RunProgram(
-      scratch, "--rest t-pose --clip-a " + vrma + " --clip-b " + vrma + " --template " +
-                   ProjectPath("data/holds/bear_hug/template.yaml") + " --out " +
-                   (scratch / "out"));
+  const Outcome run =
+      RunProgram(scratch, "--rest t-pose --clip-a " + vrma + " --clip-b " + vrma + " --template " +
+                              ProjectPath("data/holds/bear_hug/template.yaml") + " --out " +
+                              (scratch / "out"));
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.err.find("--rest t-pose: neither clip is, or is put on, a BVH file"),
             std::string::npos)
