@@ -5,6 +5,7 @@
 #include "solver/metrics/metrics.h"
 #include "solver/metrics/requirements.h"
 #include "solver/problem/clock.h"
+#include "solver/problem/root_targets.h"
 #include "solver/start/start.h"
 #include "solver/start/weak_tags.h"
 
@@ -126,6 +127,7 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
                                   scene.posture.pose[f], scene.contacts[f]);
     scene.source[f] = Placed(input.clip[f], result.placement[f]);
   }
+  scene.base = EditBase(scene);
   WarnOfWeakTags(&result);
   return result;
 }

@@ -185,12 +185,14 @@ class LinearCost : public ceres::SizedCostFunction<kBlock, kBlock> {
   Vec3 weight_;
 };
 
-// w (x(t-1) - 2 x(t) + x(t+1)) for one block.
+// w (x(t-1) - 2 x(t) + x(t+1) + b) for one block.
 class SmoothCost : public ceres::SizedCostFunction<kBlock, kBlock, kBlock, kBlock> {
  public:
-  explicit SmoothCost(const Vec3& weight) : weight_(weight) {}
+  SmoothCost(const Vec3& weight, const Vec3& base) : weight_(weight), base_(base) {}
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    for (int k = 0; k < kBlock; ++k) residuals[k] = weight_[k] * (x[0][k] - 2 * x[1][k] + x[2][k]);
+    for (int k = 0; k < kBlock; ++k) {
+      residuals[k] = weight_[k] * (x[0][k] - 2 * x[1][k] + x[2][k] + base_[k]);
+    }
     if (!jacobians) return true;
     for (int p = 0; p < 3; ++p) {
       if (!jacobians[p]) continue;
@@ -201,7 +203,7 @@ class SmoothCost : public ceres::SizedCostFunction<kBlock, kBlock, kBlock, kBloc
   }
 
  private:
-  Vec3 weight_;
+  Vec3 weight_, base_;
 };
 
 class StageCallback : public ceres::IterationCallback {
@@ -357,11 +359,14 @@ class CeresStage {
   }
 
   void AddSmoothness() {
-    const VecX& weight = context_.problem->smoothness().weight();
+    const Smoothness& smoothness = context_.problem->smoothness();
     for (int t = 1; t + 1 < scene_.num_frames(); ++t) {
+      const VecX base = smoothness.BaseDifference(t);
       for (int b = 0; b < scene_.num_coordinates() / kBlock; ++b) {
-        problem_.AddResidualBlock(new SmoothCost(weight.segment<kBlock>(kBlock * b)), nullptr,
-                                  BlockOf(t - 1, b), BlockOf(t, b), BlockOf(t + 1, b));
+        const int c = kBlock * b;
+        problem_.AddResidualBlock(
+            new SmoothCost(smoothness.weight().segment<kBlock>(c), base.segment<kBlock>(c)),
+            nullptr, BlockOf(t - 1, b), BlockOf(t, b), BlockOf(t + 1, b));
       }
     }
   }

@@ -73,10 +73,8 @@ class Pass {
   void KeepPose(int previous, int t) {
     Pose pose;
     for (int f = 0; f < 2; ++f) {
-      const int first = scene_.FirstCoordinate(f);
-      const std::vector<Pose>& source = scene_.source[f].frames;
-      EditedPose(source[previous], x_.edit.col(previous).data() + first, &pose);
-      EditOf(source[t], pose, x_.edit.col(t).data() + first);
+      EditedPose(scene_, f, previous, x_.edit, &pose);
+      EditOf(scene_, f, t, pose, previous, &x_.edit);
     }
   }
 

@@ -91,8 +91,7 @@ void CommandLine::AddScene(CLI::App* app) {
       "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");
   app->add_option("--clip-b", o.clip[1].path, "second clip");
   app->add_option("--template", o.template_path, "template posture (YAML)");
-  app->add_option("--config", o.config_path,
-                  "weights and settings (YAML; see `retarget config`)");
+  app->add_option("--config", o.config_path, "weights and settings (YAML; see `retarget config`)");
   app->add_option("--set", o.set, "one setting, such as weights.tangle=20 (repeatable)");
   app->add_option("--out", o.out, "folder for the results")->capture_default_str();
   app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
@@ -196,8 +195,7 @@ void CommandLine::AddTools(CLI::App* app) {
     const std::string usual =
         run ? folder + "/scene.png"
             : std::filesystem::path(folder).replace_extension(".png").string();
-    code =
-        RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
+    code = RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
   });
 }
 
@@ -207,8 +205,7 @@ void CommandLine::RequireScene() const {
       {"--clip-b", &retarget.clip[1].path},
       {"--template", &retarget.template_path}};
   for (const auto& [name, value] : required) {
-    if (value->empty())
-      throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
+    if (value->empty()) throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
   }
 }
 

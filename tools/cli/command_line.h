@@ -16,7 +16,6 @@ struct CommandLine {
   void Build(CLI::App* app);
   int RunMain() const;
 
-
   void AddCompletion(CLI::App* app);
   void AddRetarget(CLI::App* app);
   // The options that say which clips are to be tangled how.
