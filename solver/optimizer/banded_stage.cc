@@ -8,6 +8,7 @@
 #include "solver/optimizer/banded.h"
 #include "solver/optimizer/normal_equations.h"
 #include "solver/optimizer/stage.h"
+#include "solver/optimizer/stage_end.h"
 #include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
 
@@ -68,7 +69,7 @@ class BandedStage {
     Accept();
     double damping = settings.initial_damping;
     result_->stalled = false;
-    int flat = 0;      // iterations in a row that gained little
+    StageEnd end(context_.tolerance, cost);
     int rejected = 0;  // linear solves in a row without a sound step
     for (int iterations = 0; iterations < context_.iterations_left;) {
       if (context_.seconds_left > 0 && SecondsNow() - context_.started > context_.seconds_left) {
@@ -87,7 +88,6 @@ class BandedStage {
       rejected = 0;
       ++iterations;
       ++result_->iterations;
-      const double decrease = (cost - next_cost) / cost;
       const bool whole = step_length_.minCoeff() == 1;
       if (whole) {
         const double gain = (cost - next_cost) / std::max(PredictedDecrease(damping), 1e-300);
@@ -102,10 +102,8 @@ class BandedStage {
       cost = next_cost;
       Accept();
       if (!Report(cost, &iteration)) return SolveStatus::kInterrupted;
-      // A step that was held short says nothing about convergence.
       const bool free = step_length_.mean() > kFreeShare && damping < kFreeDamping;
-      flat = free && decrease < context_.tolerance ? flat + 1 : 0;
-      if (flat >= 2) return SolveStatus::kConverged;
+      if (end.Add(cost, iteration.step_m, free)) return SolveStatus::kConverged;
     }
     return SolveStatus::kIterationLimit;
   }

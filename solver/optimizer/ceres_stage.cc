@@ -9,9 +9,11 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "model/body/pass_through.h"
 #include "solver/optimizer/stage.h"
+#include "solver/optimizer/stage_end.h"
 #include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
 
@@ -235,12 +237,10 @@ class StageCallback : public ceres::IterationCallback {
       status = SolveStatus::kInterrupted;
       return ceres::SOLVER_ABORT;
     }
-    const double before = summary.cost + summary.cost_change;
-    // A step that the trust region holds short says nothing about convergence.
+    if (!end_) end_.emplace(context_.tolerance, summary.cost + summary.cost_change);
     const bool free = summary.trust_region_radius > kFreeRadius;
-    flat_ = free && summary.cost_change < context_.tolerance * before ? flat_ + 1 : 0;
-    if (flat_ >= 2) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-    return ceres::SOLVER_CONTINUE;
+    return end_->Add(summary.cost, iteration.step_m, free) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                           : ceres::SOLVER_CONTINUE;
   }
 
   SolveStatus status = SolveStatus::kConverged;
@@ -250,7 +250,7 @@ class StageCallback : public ceres::IterationCallback {
   const FrameCache& cache_;
   int threads_;
   SolveResult* result_;
-  int flat_ = 0;
+  std::optional<StageEnd> end_;
 };
 
 class CeresStage {

@@ -102,7 +102,8 @@ TEST(Edit, RotationVectorsAreFollowedBeyondPiOutwardsFromTheTemplate) {
 }
 
 // Roots that are brought together stand to each other as in the template, but for what the limbs
-// bear (0.25 rad and 10 cm) and what the window smooths away of a quick turn, wherever the template's frame lies and whoever travels.
+// bear (0.25 rad and 10 cm) and what the window smooths away of a quick turn, wherever the
+// template's frame lies and whoever travels.
 TEST(Edit, FiguresThatTurnAwayAreBroughtTogether) {
   for (const double degrees : {-400.0, -200.0, 150.0, 200.0, 360.0, 420.0}) {
     for (const double travel : {0.0, 0.5}) {
@@ -124,8 +125,8 @@ TEST(Edit, FiguresThatTurnAwayAreBroughtTogether) {
           const Quat was = laid[0].rotation[0].conjugate() * laid[1].rotation[0];
           EXPECT_LT(LogSo3(was.conjugate() * is).norm(), 0.35) << degrees << " " << t;
           const Vec3 apart = a.rotation[0].conjugate() * (b.root_position - a.root_position);
-          const Vec3 wanted = laid[0].rotation[0].conjugate() *
-                              (laid[1].root_position - laid[0].root_position);
+          const Vec3 wanted =
+              laid[0].rotation[0].conjugate() * (laid[1].root_position - laid[0].root_position);
           EXPECT_LT((apart - wanted).norm(), 0.2) << degrees << " " << travel << " " << t;
           if (t == 0) continue;
           for (int f = 0; f < 2; ++f) {
@@ -187,8 +188,8 @@ TEST(Edit, ASolveFollowsATurnAllTheWayRound) {
       EXPECT_GT(solved.history.back().smallest_gli, 0.5);
       EXPECT_LT(solved.history.back().deepest_penetration_m, 0.02);
       EXPECT_LT(LargestLeap(solved.unknowns.edit), 0.5) << degrees << " " << follow;
-      const double own = std::max(LargestStep(scene.source[0].frames),
-                                  LargestStep(scene.source[1].frames));
+      const double own =
+          std::max(LargestStep(scene.source[0].frames), LargestStep(scene.source[1].frames));
       const std::array<Clip, 2> clips = EditedClips(scene, solved.unknowns);
       for (int f = 0; f < 2; ++f) {
         EXPECT_LT(LargestStep(clips[f].frames), 1.5 * own) << degrees << " " << follow << " " << f;
@@ -197,8 +198,7 @@ TEST(Edit, ASolveFollowsATurnAllTheWayRound) {
       const auto& laid = scene.posture.pose;
       const Quat was = laid[0].rotation[0].conjugate() * laid[1].rotation[0];
       for (int t = 0; t < kFrames; ++t) {
-        const Quat is =
-            clips[0].frames[t].rotation[0].conjugate() * clips[1].frames[t].rotation[0];
+        const Quat is = clips[0].frames[t].rotation[0].conjugate() * clips[1].frames[t].rotation[0];
         EXPECT_LT(LogSo3(was.conjugate() * is).norm(), 0.5) << degrees << " " << follow << " " << t;
       }
     }
