@@ -16,6 +16,7 @@
 #include "solver/optimizer/stage_end.h"
 #include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
+#include "solver/problem/time_guard.h"
 
 namespace retarget::solver {
 namespace {
@@ -61,6 +62,7 @@ class FrameCache : public ceres::EvaluationCallback {
       if (guarding_) moved = std::max(moved, LargestDisplacement(accepted_[t], now));
       accepted_[t] = now;
     }
+    accepted_through_ = GoesThrough(scene_, unknowns_, accepted_, threads_);
     last_step_m_ = moved;
     guarding_ = true;
     sound_ = true;
@@ -69,13 +71,17 @@ class FrameCache : public ceres::EvaluationCallback {
   bool IsSound() const {
     const SolveSettings& settings = context_.problem->settings().solve;
     std::vector<char> bad(frames_.size(), 0);
+    std::vector<NodePositions> nodes(frames_.size());
     ParallelFor(scene_.num_frames(), threads_, [&](int t, int) {
-      const NodePositions now = {frames_[t].posed[0].node, frames_[t].posed[1].node};
+      nodes[t] = {frames_[t].posed[0].node, frames_[t].posed[1].node};
+      const NodePositions& now = nodes[t];
       const double moved = LargestDisplacement(accepted_[t], now);
       bad[t] = moved > settings.step_limit_m ||
                (moved > kStill && LargestGliJump(scene_.body, accepted_[t], now, kGuardReach).size >
                                       settings.gli_jump);
     });
+    const std::vector<char> through = GoesThrough(scene_, unknowns_, nodes, threads_);
+    for (size_t t = 0; t < through.size(); ++t) bad[t] |= through[t] && !accepted_through_[t];
     return std::count(bad.begin(), bad.end(), 0) == static_cast<long>(bad.size());
   }
 
@@ -85,6 +91,7 @@ class FrameCache : public ceres::EvaluationCallback {
   int threads_;
   std::vector<Frame> frames_;
   std::vector<NodePositions> accepted_;
+  std::vector<char> accepted_through_;  // on the way to the next frame
   bool guarding_ = false, sound_ = true, has_dexp_ = false;
   double last_step_m_ = 0;
 };
