@@ -91,8 +91,7 @@ void CommandLine::AddScene(CLI::App* app) {
       "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");
   app->add_option("--clip-b", o.clip[1].path, "second clip");
   app->add_option("--template", o.template_path, "template posture (YAML)");
-  app->add_option("--config", o.config_path,
-                  "weights and settings (YAML; see `retarget config`)");
+  app->add_option("--config", o.config_path, "weights and settings (YAML; see `retarget config`)");
   app->add_option("--set", o.set, "one setting, such as weights.tangle=20 (repeatable)");
   app->add_option("--out", o.out, "folder for the results")->capture_default_str();
   app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
@@ -118,10 +117,7 @@ void CommandLine::AddScene(CLI::App* app) {
 }
 
 void CommandLine::AddTools(CLI::App* app) {
-  CLI::App* verify = app->add_subcommand("verify", "recompute all metrics from a run's files");
-  verify->add_option("folder", folder, "what --out was")->required();
-  verify->add_flag("--json", json);
-  verify->callback([this] { code = RunVerify(folder, json); });
+  AddProof(app);
 
   CLI::App* compare = app->add_subcommand("compare", "finished runs side by side");
   compare->add_option("folders", folders, "what --out was, one or more")->required();
@@ -196,9 +192,30 @@ void CommandLine::AddTools(CLI::App* app) {
     const std::string usual =
         run ? folder + "/scene.png"
             : std::filesystem::path(folder).replace_extension(".png").string();
-    code =
-        RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
+    code = RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
   });
+}
+
+void CommandLine::AddProof(CLI::App* app) {
+  CLI::App* verify = app->add_subcommand(
+      "verify", "recompute all metrics from a run's files, and prove the motion for all t");
+  verify->add_option("folder", folder, "what --out was")->required();
+  verify->add_flag("--samples", samples, "judge by frames and instants between them, no proof");
+  verify->add_flag("--json", json);
+  verify->callback([this] { code = RunVerify(folder, samples, json); });
+
+  CLI::App* certificate =
+      app->add_subcommand("certificate", "check the proof that a run wrote, or compare two");
+  certificate->require_subcommand(1);
+  CLI::App* again = certificate->add_subcommand(
+      "check", "whether certificate.json holds, by another implementation than made it");
+  again->add_option("folder", folder, "what --out was")->required();
+  again->add_flag("--json", json);
+  again->callback([this] { code = RunCertificateCheck(folder, json); });
+  CLI::App* diff = certificate->add_subcommand("diff", "what differs between two certificates");
+  diff->add_option("a", folder, "what --out was")->required();
+  diff->add_option("b", other_folder, "what --out was, of the other")->required();
+  diff->callback([this] { code = RunCertificateDiff({folder, other_folder}); });
 }
 
 void CommandLine::RequireScene() const {
@@ -207,8 +224,7 @@ void CommandLine::RequireScene() const {
       {"--clip-b", &retarget.clip[1].path},
       {"--template", &retarget.template_path}};
   for (const auto& [name, value] : required) {
-    if (value->empty())
-      throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
+    if (value->empty()) throw InputError(fmt::format("{} is missing; see `retarget --help`", name));
   }
 }
 

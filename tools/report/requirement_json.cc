@@ -71,6 +71,7 @@ Json ChecksJson(const std::vector<solver::RequirementCheck>& checks,
     Json check = {{"name", NameOf(c)},      {"value", c.value}, {"limit", c.limit},
                   {"unit", UnitOf(c.kind)}, {"met", c.met},     {"where", WorstPlace(c, body)}};
     AddPlace(c, &check);
+    check["bound"] = c.bound ? Json(*c.bound) : Json(nullptr);
     check["limbs"] = LimbsJson(c.limbs, body);
     out.push_back(check);
   }
