@@ -11,9 +11,9 @@ namespace {
 
 using Kind = RequirementKind;
 
-constexpr double kSpare = 1e-9;       // m and turns: floating point certifies nothing
-constexpr double kLeastStep = 1e-6;   // of an interval: nothing moves on
-constexpr double kEnd = 1 + 1e-12;    // due after the end
+constexpr double kSpare = 1e-9;      // m and turns: floating point certifies nothing
+constexpr double kLeastStep = 1e-6;  // of an interval: nothing moves on
+constexpr double kEnd = 1 + 1e-12;   // due after the end
 
 struct Segment {
   PointState from, to;
@@ -178,8 +178,8 @@ class Advancer {
     }
     out_.worst.emplace_back();
     for (const Statement& s : statements_) {
-      out_.worst.back().push_back(
-          s.kind == Kind::kTangle ? std::numeric_limits<double>::infinity() : 0);
+      out_.worst.back().push_back(s.kind == Kind::kTangle ? std::numeric_limits<double>::infinity()
+                                                          : 0);
     }
   }
 
@@ -226,8 +226,8 @@ class Advancer {
     }
     const std::vector<double>& t = task_.motion.key_times;
     const int next = std::min(key + 1, task_.motion.num_keys() - 1);
-    out_.failures.push_back({i->kind, i->item, i->figure, t[key] + u * (t[next] - t[key]), value,
-                             LimbsOf(*i)});
+    out_.failures.push_back(
+        {i->kind, i->item, i->figure, t[key] + u * (t[next] - t[key]), value, LimbsOf(*i)});
     i->due = kEnd;
   }
 

@@ -14,8 +14,8 @@ struct Claim {
   ClaimType type = ClaimType::kFree;
   int statement = 0;
   double limit = 0;
-  int item = 0;      // tag, hold, contact of its figure
-  int figure = 0;    // of a foot, a floor or a length
+  int item = 0;                // tag, hold, contact of its figure
+  int figure = 0;              // of a foot, a floor or a length
   int node_1 = 0, node_2 = 0;  // segments of a pair by outer node; the node of a foot or a floor
 };
 

@@ -1,9 +1,9 @@
 // How fast and how crooked the points of a keyed motion can move between two keys.
 //
-// Between two keys every node turns in its parent at a constant rate w (rad per interval; slerp) and
-// its translation is linear. For a point at the end of a chain of bones b_1, b_2, ..., where bone i
-// is turned by all nodes above it, W_i the sum of their rates and N_i the product of the norms of
-// their stretches (1 in a scene of this program):
+// Between two keys every node turns in its parent at a constant rate w (rad per interval; slerp)
+// and its translation is linear. For a point at the end of a chain of bones b_1, b_2, ..., where
+// bone i is turned by all nodes above it, W_i the sum of their rates and N_i the product of the
+// norms of their stretches (1 in a scene of this program):
 //   |p'|  <= sum_i N_i (W_i |b_i| + |b_i'|)              speed, m per interval
 //   |p''| <= sum_i N_i (W_i^2 |b_i| + 2 W_i |b_i'|)      bend, m per interval squared
 // The product of k rotations with constant rates has a second derivative of at most W^2, whatever
@@ -18,11 +18,11 @@ namespace retarget::solver {
 
 // Bounds over one key interval. [nodes of the motion]
 struct MotionBounds {
-  std::vector<double> speed;   // of the node's origin, without its topmost node's translation
-  std::vector<double> bend;    // of the node's origin
-  std::vector<double> turn;    // of the node's frame: sum of its rates and those above (rad)
-  std::vector<double> stretch; // norm of the node's frame
-  std::vector<Vec3> carried;   // step of the topmost node above it (m)
+  std::vector<double> speed;    // of the node's origin, without its topmost node's translation
+  std::vector<double> bend;     // of the node's origin
+  std::vector<double> turn;     // of the node's frame: sum of its rates and those above (rad)
+  std::vector<double> stretch;  // norm of the node's frame
+  std::vector<Vec3> carried;    // step of the topmost node above it (m)
 };
 
 // Of the nodes `order` (ascending, with all that they hang from) from key `key` to the next.

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
+// Smallest stretches of an interval in which one claim may be undecided before no more is asked.
+constexpr int kMostUndecided = 8;
 
 class Prover {
  public:
@@ -24,7 +26,7 @@ class Prover {
       : task_(task), claims_(ClaimsOf(task)), track_(task, claims_.num_pairs) {
     for (Statement& s : claims_.statements) s.value = s.bound = kNothing;
     finding_of_.assign(claims_.claims.size(), -1);
-    dropped_.assign(claims_.claims.size(), 0);
+    given_up_.assign(claims_.claims.size(), 0);
     // A stretch of every depth down to the smallest, and what is open in it.
     levels_.resize(static_cast<size_t>(std::lround(-std::log2(kSmallestStretch))) + 1);
   }
@@ -55,8 +57,8 @@ class Prover {
   struct Level {
     Instant middle;
     MovingFigures points;
-    std::vector<int> open;       // claims
-    std::vector<int> open_pairs; // of them, pairs that may still meet
+    std::vector<int> open;        // claims
+    std::vector<int> open_pairs;  // of them, pairs that may still meet
   };
 
   double LengthOfInterval() const {
@@ -85,8 +87,8 @@ class Prover {
       if (IsAboutInterval(claims_.claims[c])) open_.push_back(static_cast<int>(c));
     }
     Certify(ends_[0], ends_[1], open_, 0);
-    for (const int c : dropped_list_) dropped_[c] = 0;
-    dropped_list_.clear();
+    for (const int c : recorded_) given_up_[c] = 0;
+    recorded_.clear();
     met_.clear();
   }
 
@@ -142,7 +144,7 @@ class Prover {
     double free = 0;  // of the pair of the last kFree claim: pairs come twice, in a row
     int free_pair = -1;
     for (const int c : open) {
-      if (dropped_[c]) continue;
+      if (given_up_[c] >= kMostUndecided) continue;
       const Claim& claim = claims_.claims[c];
       Judged judged;
       if (claim.type == ClaimType::kFree || claim.type == ClaimType::kDepth) {
@@ -173,9 +175,9 @@ class Prover {
     if (!i.gap_known[pair]) {
       const std::array<Body, 2>& body = task_.subject.body;
       const std::vector<Vec3>&p = i.node[0], &q = i.node[1];
-      const ClosestPoints closest = ClosestPointsOfSegments(
-          p[body[0].nodes[claim.node_1].parent], p[claim.node_1],
-          q[body[1].nodes[claim.node_2].parent], q[claim.node_2]);
+      const ClosestPoints closest =
+          ClosestPointsOfSegments(p[body[0].nodes[claim.node_1].parent], p[claim.node_1],
+                                  q[body[1].nodes[claim.node_2].parent], q[claim.node_2]);
       i.gap[pair] = {closest.distance, closest.normal};
       i.gap_known[pair] = 1;
     }
@@ -237,9 +239,8 @@ class Prover {
     const TagPaths& paths = claims_.tags[claim.item];
     const auto gli_at = [&](Instant& i) {
       if (std::isnan(i.gli[claim.item])) {
-        i.gli[claim.item] =
-            task_.subject.tangles[claim.item].sign *
-            PolylineGli(PointsOn(i.node[0], paths.a), PointsOn(i.node[1], paths.b));
+        i.gli[claim.item] = task_.subject.tangles[claim.item].sign *
+                            PolylineGli(PointsOn(i.node[0], paths.a), PointsOn(i.node[1], paths.b));
       }
       return i.gli[claim.item];
     };
@@ -257,7 +258,7 @@ class Prover {
     };
     points_on(level.points.node[0], paths.a, &path_[0]);
     points_on(level.points.node[1], paths.b, &path_[1]);
-    const double change = GliChangeBound(path_[0], path_[1], level.points.carried);
+    const GliChange change = BoundGliChange(path_[0], path_[1], level.points.carried);
     return {-g0, -g1, -GliBound(g0, g1, change)};
   }
 
@@ -301,12 +302,14 @@ class Prover {
     worst_[static_cast<size_t>(claim.statement)] = claim;
   }
 
-  // Notes that a claim fails in this interval, and asks no more of it before the next key.
+  // Notes that a claim fails in this interval, and asks no more of it before the next key where it
+  // is lost, or undecided again and again.
   void Record(int c, const Claim& claim, bool lost, double share, double value) {
     now_->bound[claim.statement] = kUnknown;
-    dropped_[c] = 1;
-    dropped_list_.push_back(c);
-    if (claim.type == ClaimType::kFree) met_.push_back(c);
+    const bool first_here = given_up_[c] == 0;
+    given_up_[c] = lost ? kMostUndecided : given_up_[c] + 1;
+    if (first_here) recorded_.push_back(c);
+    if (first_here && claim.type == ClaimType::kFree) met_.push_back(c);
     if (finding_of_[c] < 0) {
       finding_of_[c] = static_cast<int>(out_.findings.size());
       Finding finding;
@@ -320,7 +323,7 @@ class Prover {
       out_.findings.push_back(finding);
     }
     Finding& finding = out_.findings[finding_of_[c]];
-    ++finding.intervals;
+    finding.intervals += first_here;
     finding.lost |= lost;
     if (value <= finding.worst) return;
     finding.worst = value;
@@ -345,8 +348,8 @@ class Prover {
   std::vector<Level> levels_;
   std::vector<int> open_;
   std::vector<int> finding_of_;    // [claims] -1: none
-  std::vector<char> dropped_;      // [claims] in this interval
-  std::vector<int> dropped_list_;
+  std::vector<int> given_up_;      // [claims] how often, in this interval
+  std::vector<int> recorded_;      // claims that were
   std::vector<int> met_;           // pairs that may meet in this interval
   std::map<size_t, Claim> worst_;  // of each statement
   int key_ = 0;

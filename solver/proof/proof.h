@@ -34,7 +34,7 @@ struct Statement {
   double value = 0;  // worst that was met at an instant looked at; of pass-throughs the count
   double bound = 0;  // proved for all t: s GLI is nowhere below it, the others nowhere above
   bool proved = true;
-  int frame = -1;  // key at or before the instant of `value`
+  int frame = -1;                    // key at or before the instant of `value`
   std::vector<LimbNode> limbs = {};  // concerned there
 };
 

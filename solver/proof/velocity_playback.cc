@@ -96,8 +96,7 @@ void VelocityPlayback::At(double u) {
     const double bone = std::max(l.t0.norm(), (l.t0 + l.dt).norm());
     f.origin.p = up.origin.p + up.linear * t;
     f.origin.v = up.origin.v + up.change * t + up.linear * l.dt;
-    f.origin.a =
-        up.origin.a + up.size * (up.rates * up.rates * bone + 2 * up.rates * l.dt.norm());
+    f.origin.a = up.origin.a + up.size * (up.rates * up.rates * bone + 2 * up.rates * l.dt.norm());
     f.linear = up.linear * own;
     f.change = up.change * own + up.linear * own_change;
     f.rates = up.rates + l.rate;

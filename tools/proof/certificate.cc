@@ -45,8 +45,8 @@ Json StatementsJson(const solver::Proof& proof) {
   return out;
 }
 
-Json TopologyJson(const solver::Proof& proof, const solver::MetricsContext& subject,
-                  double begin, double end) {
+Json TopologyJson(const solver::Proof& proof, const solver::MetricsContext& subject, double begin,
+                  double end) {
   Json tags = Json::array();
   double crossings = 0;
   for (const solver::Statement& s : proof.statements) {
@@ -103,29 +103,28 @@ std::string FormatCertificate(const solver::Proof& proof, const solver::MetricsC
   const std::vector<double>& keys = scene.key_times;
   Json columns = {"depth", "stretches"};
   for (const solver::Statement& s : proof.statements) columns.push_back(NameOf(s));
-  const Json out = {
-      {"format", 1},
-      {"generator", generator},
-      {"summary", ProofSentence(proof, subject)},
-      {"proved", proof.proved()},
-      {"scene", {{"file", "scene.glb"}, {"hash", io::Sha256Of(scene_glb)}}},
-      {"subject_hash", SubjectHash(subject)},
-      {"motion",
-       {{"keys", keys.size()},
-        {"from_s", keys.front()},
-        {"to_s", keys.back()},
-        {"translation", "linear"},
-        {"rotation", "spherical-linear, the shorter arc"}}},
-      {"tolerances",
-       {{"length_m", solver::kLengthMargin},
-        {"gli_turns", solver::kGliMargin},
-        {"smallest_stretch", solver::kSmallestStretch}}},
-      {"statements", StatementsJson(proof)},
-      {"topology", TopologyJson(proof, subject, keys.front(), keys.back())},
-      {"findings", FindingsJson(proof, subject)},
-      {"stretches", proof.evaluations},
-      {"depth", proof.depth},
-      {"intervals", {{"columns", columns}, {"rows", "@"}}}};
+  const Json out = {{"format", 1},
+                    {"generator", generator},
+                    {"summary", ProofSentence(proof, subject)},
+                    {"proved", proof.proved()},
+                    {"scene", {{"file", "scene.glb"}, {"hash", io::Sha256Of(scene_glb)}}},
+                    {"subject_hash", SubjectHash(subject)},
+                    {"motion",
+                     {{"keys", keys.size()},
+                      {"from_s", keys.front()},
+                      {"to_s", keys.back()},
+                      {"translation", "linear"},
+                      {"rotation", "spherical-linear, the shorter arc"}}},
+                    {"tolerances",
+                     {{"length_m", solver::kLengthMargin},
+                      {"gli_turns", solver::kGliMargin},
+                      {"smallest_stretch", solver::kSmallestStretch}}},
+                    {"statements", StatementsJson(proof)},
+                    {"topology", TopologyJson(proof, subject, keys.front(), keys.back())},
+                    {"findings", FindingsJson(proof, subject)},
+                    {"stretches", proof.evaluations},
+                    {"depth", proof.depth},
+                    {"intervals", {{"columns", columns}, {"rows", "@"}}}};
   std::string text = out.dump(1) + "\n";
   const std::string mark = "\"@\"";
   text.replace(text.rfind(mark), mark.size(), RowsText(proof));

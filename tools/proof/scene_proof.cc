@@ -74,13 +74,14 @@ std::string FindingSentence(const solver::Proof& proof, const solver::Finding& f
 }
 
 std::string ProofSentence(const solver::Proof& proof, const solver::MetricsContext& subject) {
-  const std::string work =
-      fmt::format("{} intervals, {} stretches, halved {} times at most", proof.intervals.size(),
-                  proof.evaluations, proof.depth);
-  if (proof.proved()) return fmt::format("proved for all t: {} ({})",
-                  subject.tangles.empty() ? "nothing passes through, every limit is kept"
-                                          : "no tag is lost, nothing passes through, every limit is kept",
-                  work);
+  const std::string work = fmt::format("{} intervals, {} stretches, halved {} times at most",
+                                       proof.intervals.size(), proof.evaluations, proof.depth);
+  if (proof.proved())
+    return fmt::format("proved for all t: {} ({})",
+                       subject.tangles.empty()
+                           ? "nothing passes through, every limit is kept"
+                           : "no tag is lost, nothing passes through, every limit is kept",
+                       work);
   std::string out = "not proved: " + FindingSentence(proof, proof.findings[0], subject);
   if (proof.findings.size() > 1) out += fmt::format(" (the first of {})", proof.findings.size());
   return out;

@@ -23,8 +23,8 @@ int RunCertificateCheck(const std::string& folder, bool json) {
 }
 
 int RunCertificateDiff(const std::array<std::string, 2>& folders) {
-  const std::vector<std::string> lines = proof::CertificateDiff(
-      proof::ReadCertificate(folders[0]), proof::ReadCertificate(folders[1]));
+  const std::vector<std::string> lines = proof::CertificateDiff(proof::ReadCertificate(folders[0]),
+                                                                proof::ReadCertificate(folders[1]));
   for (const std::string& line : lines) fmt::print("{}\n", line);
   if (lines.empty()) fmt::print("both certify the same\n");
   return kDone;
