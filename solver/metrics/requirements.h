@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct RequirementCheck {
   int frame = -1;                    // of the worst; -1: none
   std::vector<LimbNode> limbs = {};  // concerned in the worst
   std::string file = {};             // that a write-back was read from, where it was
+  std::optional<double> bound = {};  // proved for every instant (solver/proof); nothing: it is not
 };
 bool AllMet(const std::vector<RequirementCheck>& checks);
 

@@ -112,8 +112,8 @@ std::vector<std::string> RecognitionNotes(const Job& job) {
 }
 
 std::vector<std::string> OutputNames(const Job& job) {
-  std::vector<std::string> names = {"scene.glb", "source.glb", "baseline.glb", "report.json",
-                                    "config.yaml"};
+  std::vector<std::string> names = {"scene.glb",   "source.glb",  "baseline.glb",
+                                    "report.json", "config.yaml", "certificate.json"};
   if (job.request.page) names.push_back("report.html");
   for (int f = 0; f < 2; ++f) {
     for (const std::string& name : io::NamesOfClipFile(job.clip[f].file, report::kFigure[f])) {

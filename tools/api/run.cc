@@ -7,6 +7,7 @@
 #include "tools/api/job.h"
 #include "tools/api/run_report.h"
 #include "tools/api/version.h"
+#include "tools/proof/certificate.h"
 #include "tools/report/diagnosis_text.h"
 #include "tools/report/measured_scene.h"
 #include "tools/report/page.h"
@@ -104,6 +105,8 @@ Result RunJob(const Job& job, const Progress& progress) {
            result.metrics, {rig[0].error_m, rig[1].error_m}, settings.requirements)) {
     result.requirements.push_back(check);
   }
+  result.proof = proof::ProveScene(solved.scene(), subject, settings.requirements);
+  solver::JudgeByProof(result.proof, &result.requirements);
   const bool all_met = solver::AllMet(result.requirements);
   if (!all_met) {
     result.diagnoses = solver::Diagnose(solver::Problem(scene, settings), result.run.solve.unknowns,
@@ -114,7 +117,7 @@ Result RunJob(const Job& job, const Progress& progress) {
   // Report.
   const report::Json report =
       RunReport({job, result.run, subject, result.requirements, result.diagnoses,
-                 ExitCodeOf(result.status), rig},
+                 ExitCodeOf(result.status), rig, result.proof},
                 result.source_metrics, result.baseline_metrics, result.metrics);
   result.files = {{"scene.glb", solved.bytes()},
                   {"source.glb", source.bytes()},
@@ -130,6 +133,9 @@ Result RunJob(const Job& job, const Progress& progress) {
                                                                      baseline.bytes(), figures})});
   }
   result.files.push_back({"config.yaml", io::FormatSettings(settings)});
+  result.files.push_back(
+      {proof::kCertificate,
+       proof::FormatCertificate(result.proof, subject, solved.bytes(), kGenerator)});
   return result;
 }
 

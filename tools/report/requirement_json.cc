@@ -72,6 +72,7 @@ Json ChecksJson(const std::vector<solver::RequirementCheck>& checks,
                   {"unit", UnitOf(c.kind)},      {"met", c.met},     {"judged", c.judged()},
                   {"where", WorstPlace(c, body)}};
     AddPlace(c, &check);
+    check["bound"] = c.bound ? Json(*c.bound) : Json(nullptr);
     check["limbs"] = LimbsJson(c.limbs, body);
     out.push_back(check);
   }
