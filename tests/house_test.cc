@@ -61,6 +61,7 @@ const std::map<std::string, Names>& KnownFolders() {
       {"solver/start", {"solver/problem", "solver/problem/terms", "solver/optimizer"}},
       {"solver/simulation", {"solver/problem", "solver/problem/terms", "solver/optimizer"}},
       {"solver/metrics", {"solver/problem", "solver/problem/terms", "solver/optimizer"}},
+      {"solver/proof", {"solver/problem", "solver/metrics"}},
       {"solver",
        {"solver/problem", "solver/problem/terms", "solver/optimizer", "solver/start",
         "solver/simulation", "solver/metrics"}},
@@ -78,10 +79,12 @@ const std::map<std::string, Names>& KnownFolders() {
         "io/scene"}},
 
       {"tools/report", {}},
-      {"tools/api", {"tools/report"}},
+      {"tools/proof", {"tools/report"}},
+      {"tools/api", {"tools/report", "tools/proof"}},
       {"tools/posing", {"tools/report", "tools/api"}},
       {"tools/studio", {"tools/report", "tools/api", "tools/posing"}},
-      {"tools/cli", {"tools/report", "tools/api", "tools/posing", "tools/studio"}},
+      {"tools/cli", {"tools/report", "tools/proof", "tools/api", "tools/posing", "tools/studio"}},
+      {"tools/cli/proof", {"tools/report", "tools/proof", "tools/api", "tools/cli"}},
       {"tools/examples/embed", {}},
       {"tools/bench", {"tools/report", "tools/api", "tools/posing", "tools/studio"}}};
   return folders;

@@ -7,9 +7,11 @@ namespace retarget::cli {
 
 io::OptionWords ProgramWords() {
   return {.units = "--units",
+          .stature = "--stature",
           .up = "--up",
           .skip_frames = "--skip-frames",
           .start = "--start",
+          .travel = "--travel",
           .ik_targets = "--ik-targets",
           .character = "--character",
           .map_by_hand =

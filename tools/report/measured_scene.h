@@ -26,6 +26,7 @@ class MeasuredScene {
   void Measure(const solver::MetricsContext& subject, const MeasuredScene& source);
 
   const std::string& bytes() const { return bytes_; }
+  const io::SceneMotion& scene() const { return scene_; }
   const solver::MotionView& view() const { return view_; }
   const solver::FrameMetrics& series() const { return series_; }
   const solver::Metrics& metrics() const { return metrics_; }
