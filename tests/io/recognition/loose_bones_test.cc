@@ -112,8 +112,7 @@ TEST(LooseBones, FeetAtTheEndsOfTheShinsAreAnkles) {
     // Another foot beside the root, and none on the leg.
     map.left.ankle = map.left.toe = -1;
     mapped.figure.motion.rig.joints[mapped.map.left.ankle].name = "end";
-    const int loose =
-        mapped.figure.Add("foot_l", -1, at_end ? foot : Vec3(foot + Vec3(0, 0, 40)));
+    const int loose = mapped.figure.Add("foot_l", -1, at_end ? foot : Vec3(foot + Vec3(0, 0, 40)));
     mapped.figure.Rest();
     const std::vector<std::string> names = FindLooseFeet(mapped.figure.motion, &map);
     EXPECT_EQ(names.size(), at_end ? 1U : 0U);
