@@ -15,6 +15,7 @@ EditCurve::EditCurve(const Clip& before, const Clip& after) : fps_(before.fps) {
     for (size_t l = 0; l < p.rotation.size(); ++l) {
       edit.push_back(LogSo3(p.rotation[l].conjugate() * q.rotation[l]));
     }
+    for (const Vec3& v : edit) is_zero_ = is_zero_ && v.norm() < 1e-9;
     edit_.push_back(std::move(edit));
   }
 }
@@ -28,18 +29,41 @@ Pose EditCurve::Apply(const Pose& pose, double time) const {
   const std::vector<Vec3>& p1 = edit_[k];
   const std::vector<Vec3>& p2 = edit_[std::min(k + 1, last)];
   const std::vector<Vec3>& p3 = edit_[std::min(k + 2, last)];
-  const auto value = [&](size_t i) -> Vec3 {
-    const Vec3 m1 = 0.5 * (p2[i] - p0[i]), m2 = 0.5 * (p3[i] - p1[i]);
-    const double u2 = u * u, u3 = u2 * u;
-    return (2 * u3 - 3 * u2 + 1) * p1[i] + (u3 - 2 * u2 + u) * m1 + (3 * u2 - 2 * u3) * p2[i] +
+  const double u2 = u * u, u3 = u2 * u;
+  const auto value = [&](const Vec3& v0, const Vec3& v1, const Vec3& v2, const Vec3& v3) -> Vec3 {
+    const Vec3 m1 = 0.5 * (v2 - v0), m2 = 0.5 * (v3 - v1);
+    return (2 * u3 - 3 * u2 + 1) * v1 + (u3 - 2 * u2 + u) * m1 + (3 * u2 - 2 * u3) * v2 +
            (u3 - u2) * m2;
   };
   Pose out = pose;
-  out.root_position += value(0);
+  out.root_position += value(p0[0], p1[0], p2[0], p3[0]);
   for (size_t l = 0; l < pose.rotation.size(); ++l) {
-    out.rotation[l] = pose.rotation[l] * ExpSo3(value(l + 1));
+    // Counted from frame k: an edit of half a turn has two vectors, and from frame to frame the
+    // shorter may change from one to the other.
+    const Quat base = ExpSo3(p1[l + 1]);
+    const auto turn = [&](const std::vector<Vec3>& p) {
+      return LogSo3(base.conjugate() * ExpSo3(p[l + 1]));
+    };
+    out.rotation[l] =
+        pose.rotation[l] * base * ExpSo3(value(turn(p0), Vec3::Zero(), turn(p2), turn(p3)));
   }
   return out;
+}
+
+namespace {
+
+RigFrame PlacedFrame(const RigBinding& binding, const RigFrame& captured,
+                     const std::function<Pose(const Pose&)>& place) {
+  const Pose there = binding.PoseOf(captured), placed = place(there);
+  const Quat turn = placed.rotation[0] * there.rotation[0].conjugate();
+  return binding.Placed(captured, turn, placed.root_position - turn * there.root_position);
+}
+
+}  // namespace
+
+RigFrame WrittenFrame(const RigBinding& binding, const RigFrame& captured,
+                      const std::function<Pose(const Pose&)>& place, const Pose& solved) {
+  return binding.Fitted(PlacedFrame(binding, captured, place), solved);
 }
 
 RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double start,
@@ -54,7 +78,9 @@ RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double
   for (int i = 0; i < keys; ++i) {
     const double time = i * captured.frame_time;
     const RigFrame frame = SampleRig(captured, start + time);
-    out.frames.push_back(binding.Apply(frame, edit.Apply(place(binding.PoseOf(frame)), time)));
+    const Pose pose = edit.Apply(place(binding.PoseOf(frame)), time);
+    out.frames.push_back(edit.is_zero() ? binding.Apply(PlacedFrame(binding, frame, place), pose)
+                                        : WrittenFrame(binding, frame, place, pose));
   }
   return out;
 }

@@ -36,8 +36,13 @@ struct RigidMotion {
 };
 
 RigidMotion CarriedBy(const Scene& scene, int figure, int t) {
-  const Pose& from = scene.source[figure].frames[scene.template_frame];
-  const Pose& to = scene.source[figure].frames[t];
+  // Roots with clips of their own have been brought together: they differ by little.
+  const auto root = [&](int frame) {
+    const RootShift shift =
+        scene.root[figure] == RootReference::kOwnClip ? scene.BaseOf(figure, frame) : RootShift{};
+    return ShiftedRoot(scene.source[figure].frames[frame], shift);
+  };
+  const Pose from = root(scene.template_frame), to = root(t);
   // Heading only: a leaning carrier does not tip its partner over.
   const Quat turn = YawRotation(YawOf(to.rotation[0] * from.rotation[0].conjugate()));
   return {turn, to.root_position - turn * from.root_position};
@@ -79,7 +84,11 @@ std::array<Clip, 2> TemplateRelativePoses(const Scene& scene) {
 
 Unknowns TemplateStart(const Problem& problem) {
   const Scene& scene = problem.scene();
-  return QuasiStaticPass(problem, UnknownsFromPoses(scene, TemplateRelativePoses(scene)));
+  // Frame by frame the footprint that a free foot will come to is not known yet.
+  Settings settings = problem.settings();
+  settings.weights.foot_swing = 0;
+  return QuasiStaticPass(Problem(scene, settings),
+                         UnknownsFromPoses(scene, TemplateRelativePoses(scene)));
 }
 
 }  // namespace retarget::solver

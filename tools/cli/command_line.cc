@@ -35,11 +35,23 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
   app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
+  app->add_option("--ik-targets" + suffix, clip->ik_targets,
+                  "what targets of inverse kinematics do: follow their limbs, or keep")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"follow", "keep"}))
+      ->group(group);
   if (!solve) return;
   app->add_option("--character" + suffix, clip->character,
                   "put the motion on this character (glTF, VRM, BVH) and solve on its body")
       ->group(group);
   app->add_option("--character-map" + suffix, clip->character_map, "joint map of the character")
+      ->group(group);
+  app->add_option_function<std::string>(
+         "--travel" + suffix,
+         [clip](const std::string& what) { clip->keep_in_place = what == "keep"; },
+         "a clip that strides in place: recover its way from the standing foot, or keep it")
+      ->check(CLI::IsMember({"recover", "keep"}))
+      ->default_str("recover")
       ->group(group);
   app->add_option("--start" + suffix, clip->start, "seconds into the clip")
       ->check(CLI::NonNegativeNumber)
@@ -123,10 +135,7 @@ void CommandLine::AddScene(CLI::App* app) {
 }
 
 void CommandLine::AddTools(CLI::App* app) {
-  CLI::App* verify = app->add_subcommand("verify", "recompute all metrics from a run's files");
-  verify->add_option("folder", folder, "what --out was")->required();
-  verify->add_flag("--json", json);
-  verify->callback([this] { code = RunVerify(folder, json); });
+  AddProof(app);
 
   CLI::App* compare = app->add_subcommand("compare", "finished runs side by side");
   compare->add_option("folders", folders, "what --out was, one or more")->required();
@@ -203,6 +212,28 @@ void CommandLine::AddTools(CLI::App* app) {
             : std::filesystem::path(folder).replace_extension(".png").string();
     code = RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
   });
+}
+
+void CommandLine::AddProof(CLI::App* app) {
+  CLI::App* verify = app->add_subcommand(
+      "verify", "recompute all metrics from a run's files, and prove the motion for all t");
+  verify->add_option("folder", folder, "what --out was")->required();
+  verify->add_flag("--samples", samples, "judge by frames and instants between them, no proof");
+  verify->add_flag("--json", json);
+  verify->callback([this] { code = RunVerify(folder, samples, json); });
+
+  CLI::App* certificate =
+      app->add_subcommand("certificate", "check the proof that a run wrote, or compare two");
+  certificate->require_subcommand(1);
+  CLI::App* again = certificate->add_subcommand(
+      "check", "whether certificate.json holds, by another implementation than made it");
+  again->add_option("folder", folder, "what --out was")->required();
+  again->add_flag("--json", json);
+  again->callback([this] { code = RunCertificateCheck(folder, json); });
+  CLI::App* diff = certificate->add_subcommand("diff", "what differs between two certificates");
+  diff->add_option("a", folder, "what --out was")->required();
+  diff->add_option("b", other_folder, "what --out was, of the other")->required();
+  diff->callback([this] { code = RunCertificateDiff({folder, other_folder}); });
 }
 
 void CommandLine::RequireScene() const {
