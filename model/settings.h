@@ -40,7 +40,7 @@ struct Weights {
   double smoothness = 10;
   double root_smoothness = 20;
   double foot_lock = 300;
-  double foot_swing = 100;
+  double foot_swing = 60;
   double hold = 60;
   double penetration = 60;
   double self_penetration = 60;

@@ -44,6 +44,33 @@ double LargestAcceleration(const std::vector<NodePositions>& motion, int figure,
   return largest;
 }
 
+// Largest horizontal speed of the root beyond the source's, near a frame (m/s).
+double LedSpeed(const std::vector<NodePositions>& motion, const std::vector<NodePositions>& source,
+                int figure, int frame, double fps) {
+  const int last = static_cast<int>(std::min(motion.size(), source.size())) - 1;
+  double most = 0;
+  for (int t = std::max(1, frame - kEdgeReach); t <= std::min(last, frame + kEdgeReach); ++t) {
+    const auto speed = [&](const std::vector<NodePositions>& m) {
+      const Vec3 d = m[t][figure][0] - m[t - 1][figure][0];
+      return std::hypot(d.x(), d.z()) * fps;
+    };
+    most = std::max(most, speed(motion) - speed(source));
+  }
+  return most;
+}
+
+// Distance over the floor between the footprints at frames `from` and `to`, less the source's; 0
+// where it is shorter.
+double LongerStride(const std::vector<NodePositions>& motion,
+                    const std::vector<NodePositions>& source, int figure, int node, int from,
+                    int to) {
+  const auto stride = [&](const std::vector<NodePositions>& m) {
+    const Vec3 d = m[to][figure][node] - m[from][figure][node];
+    return std::hypot(d.x(), d.z());
+  };
+  return std::max(0.0, stride(motion) - stride(source));
+}
+
 }  // namespace
 
 std::vector<Swing> MeasureSwings(const MetricsContext& subject, int figure,
@@ -68,6 +95,8 @@ std::vector<Swing> MeasureSwings(const MetricsContext& subject, int figure,
       if (travel < 0 && own < 0) continue;
       swing.travel_m = std::max(travel, 0.0);
       swing.source_m = std::max(own, 0.0);
+      swing.stride_m = LongerStride(motion, source, figure, node, std::max(0, swing.first - 1),
+                                    std::min(swing.last + 1, frames - 1));
       swings.push_back(swing);
     }
   }
@@ -79,12 +108,25 @@ std::vector<ContactEdge> MeasureEdges(const MetricsContext& subject, int figure,
                                       const std::vector<NodePositions>& source) {
   std::vector<ContactEdge> edges;
   const int frames = static_cast<int>(std::min(motion.size(), source.size()));
-  for (const Contact& c : subject.contacts[figure]) {
-    for (const int frame : {c.first, c.last}) {
-      if (frame <= 0 || frame >= frames - 1) continue;  // the clip's ends are no landing
-      edges.push_back({c.node, frame, LargestAcceleration(motion, figure, c.node, frame, fps),
-                       LargestAcceleration(source, figure, c.node, frame, fps)});
+  const std::vector<Contact>& contacts = subject.contacts[figure];
+  const auto add = [&](int node, int frame, int from, int to) {
+    if (frame <= 0 || frame >= frames - 1) return;  // the clip's ends are no landing
+    ContactEdge edge{node, frame, LargestAcceleration(motion, figure, node, frame, fps),
+                     LargestAcceleration(source, figure, node, frame, fps)};
+    edge.stride_m = LongerStride(motion, source, figure, node, from, to);
+    edge.swing_s = (to - from) / fps;
+    edge.led_m_s = LedSpeed(motion, source, figure, frame, fps);
+    edges.push_back(edge);
+  };
+  for (const Contact& c : contacts) {
+    int before = 0, after = frames - 1;  // the node's neighbouring footprints, or the clip's ends
+    for (const Contact& other : contacts) {
+      if (other.node != c.node) continue;
+      if (other.last < c.first) before = std::max(before, other.last);
+      if (other.first > c.last) after = std::min(after, other.first);
     }
+    add(c.node, c.first, before, c.first);
+    add(c.node, c.last, c.last, after);
   }
   return edges;
 }

@@ -78,7 +78,8 @@ class Requiring {
   // Of the swing, and of the edge, that is the largest multiple of what is allowed.
   void CheckSwings(int f) {
     const auto limit = [&](const Swing& s) {
-      return std::max(r_.foot_travel_ratio * s.source_m, r_.foot_travel_m);
+      return std::max(r_.foot_travel_ratio * s.source_m, r_.foot_travel_m) +
+             kStrideNearFloor * s.stride_m;
     };
     const Swing* worst = nullptr;
     for (const Swing& s : m_.figure[f].swings) {
@@ -94,7 +95,10 @@ class Requiring {
 
   void CheckEdges(int f) {
     const auto limit = [&](const ContactEdge& e) {
-      return std::max(r_.foot_acceleration_ratio * e.source, r_.foot_acceleration);
+      const double least =
+          (e.swing_s > 0 ? kStrideAcceleration * e.stride_m / (e.swing_s * e.swing_s) : 0) +
+          kLedAcceleration * e.led_m_s;
+      return std::max(r_.foot_acceleration_ratio * e.source, r_.foot_acceleration) + least;
     };
     const ContactEdge* worst = nullptr;
     for (const ContactEdge& e : m_.figure[f].edges) {

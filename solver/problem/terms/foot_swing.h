@@ -1,12 +1,16 @@
 // foot_swing: near the floor a free foot leaves its footprint, and comes to the next, along the
 // path that it takes in the capture.
-//   r = w(t) (p - (a_x, h, a_z) - Ry(theta) (s(t) - s(e)))   (m)
+//   d = p - (a_x, h, a_z) - Ry(theta) (s(t) - s(e))
+//   r = w(t) (g(p_y - h) m tanh(d_x / m), g(p_y - h) m tanh(d_z / m), c(t) d_y)   (m)
 // e is the first or last frame of the contact, a its anchor, h its mean height in the source, s the
 // node in the source, theta the heading by which the edit has turned the root (swing-twist about
-// the vertical). w fades from 1 to 0 with the foot's height over the contact and with time from its
-// end, so that an edited stride is made up for where the foot is high. Without it a foot that is
-// let go returns to its tracked place at once, over the floor. 1 frame and the anchor, 1 body.
-// YAML: weights.foot_swing.
+// the vertical). g falls from 1 to 0 as the foot rises, w with time from the contact's end
+// once the captured foot has left the floor, so that
+// an edited stride is made up for where the foot is high, and a foot that must go further than it
+// did is lifted for it; c keeps the captured height, softly, where that is low; m bounds
+// the pull on a foot that is led far away. Without this term a
+// foot that is let go returns to its tracked place at once, over the floor.
+// 1 frame and the anchor, 1 body. YAML: weights.foot_swing.
 #pragma once
 
 #include <vector>

@@ -52,6 +52,7 @@ TEST_F(FootMetricsTest, ASwingsTravelIsItsPathNearTheFloor) {
   EXPECT_EQ(swings[0].last, 11);
   EXPECT_NEAR(swings[0].travel_m, 8 * 0.05, 1e-12);
   EXPECT_NEAR(swings[0].source_m, 4 * 0.05, 1e-12);
+  EXPECT_NEAR(swings[0].stride_m, 4 * 0.05, 1e-12) << "40 cm, of which 20 as captured";
 }
 
 TEST_F(FootMetricsTest, WhatIsHighIsNoTravelAndCrossingsAreCutWhereTheyAre) {
@@ -88,6 +89,10 @@ TEST_F(FootMetricsTest, AnEdgesAccelerationIsThatOfTheParabolaBesideIt) {
   EXPECT_NEAR(edges[0].acceleration, 7, 1e-9);
   EXPECT_NEAR(edges[0].source, 2, 1e-9);
   EXPECT_EQ(edges[1].frame, 16);
+  EXPECT_NEAR(edges[0].swing_s, 7 / kFps, 1e-12);
+  const double longer = 0.5 * (7 - 2) * (5 / kFps) * (5 / kFps);
+  EXPECT_NEAR(edges[0].stride_m, longer, 1e-12);
+  EXPECT_NEAR(edges[1].stride_m, longer, 1e-12);
   EXPECT_GT(edges[1].acceleration, 20) << "it stops within one frame at 14";
 }
 
@@ -110,8 +115,8 @@ TEST_F(FootMetricsTest, RequirementsTakeTheWorstAndSayWhereThereIsNothingToJudge
     EXPECT_TRUE(check(kind, 0).met);
   }
   // The long swing may travel 30 cm, the short one no more than 2.
-  metrics.figure[0].swings = {{toe_, 5, 9, 0.29, 0.20}, {toe_, 12, 14, 0.021, 0.001}};
-  metrics.figure[0].edges = {{toe_, 4, 14, 9.5}, {toe_, 9, 10.5, 2}};
+  metrics.figure[0].swings = {{toe_, 5, 9, 0.29, 0.20, 0}, {toe_, 12, 14, 0.021, 0.001, 0}};
+  metrics.figure[0].edges = {{toe_, 4, 14, 9.5, 0, 0, 0}, {toe_, 9, 10.5, 2, 0, 0, 0}};
   const RequirementCheck travel = check(Kind::kFootTravel, 0);
   EXPECT_TRUE(travel.judged());
   EXPECT_FALSE(travel.met);
@@ -122,6 +127,14 @@ TEST_F(FootMetricsTest, RequirementsTakeTheWorstAndSayWhereThereIsNothingToJudge
   EXPECT_FALSE(edge.met);
   EXPECT_EQ(edge.frame, 9);
   EXPECT_EQ(edge.limit, 10);
+  // A stride that is 8 cm longer may slide over 2 cm more, and within 0.4 s be thrown by so much.
+  metrics.figure[0].swings[1].stride_m = 0.08;
+  EXPECT_TRUE(check(Kind::kFootTravel, 0).met);
+  metrics.figure[0].edges[1].stride_m = 0.08;
+  metrics.figure[0].edges[1].swing_s = 0.4;
+  EXPECT_TRUE(check(Kind::kFootAcceleration, 0).met);
+  EXPECT_NEAR(check(Kind::kFootAcceleration, 0).limit, edge.frame == 9 ? 1.5 * 9.5 : 0, 1e-12)
+      << "now the other is the tighter";
   EXPECT_EQ(WorstSwing(metrics.figure[0])->travel_m, 0.29) << "its excess is the largest";
   EXPECT_EQ(WorstEdge(metrics.figure[0])->acceleration, 10.5);
   EXPECT_FALSE(check(Kind::kFootTravel, 1).judged());
