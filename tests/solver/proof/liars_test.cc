@@ -47,8 +47,8 @@ void Judge(const RandomScene& s, RequirementKind kind, double from, double to, F
       !AllMet(CheckRequirements(s.subject, Measure(s.subject, view, view), s.limits));
 }
 
-// An upright forearm goes round its elbow's circle, through a pole and back, while the circle bulges
-// over it. The keys before and after stand still.
+// An upright forearm goes round its elbow's circle, through a pole and back, while the circle
+// bulges over it. The keys before and after stand still.
 RandomScene ThroughAndBack(SceneMaker* make, double* from, double* to) {
   RandomScene s = make->Make(4, 0, 0, 0);
   s.subject.tangles.clear();
@@ -73,8 +73,7 @@ RandomScene ThroughAndBack(SceneMaker* make, double* from, double* to) {
     s.motion.rotation_tracks[0][k] = world * Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
     s.motion.rotation_tracks[5][k] = world;
     s.motion.translation_tracks[0][k] = world * Vec3(0, 0, 1);
-    s.motion.translation_tracks[1][k] =
-        world * Vec3(reach * std::cos(sweep * width), -0.5, 1.1);
+    s.motion.translation_tracks[1][k] = world * Vec3(reach * std::cos(sweep * width), -0.5, 1.1);
   }
   for (std::vector<Vec3>& track : s.motion.translation_tracks) {
     for (Vec3& p : track) p.y() += 3;  // clear of the floor
@@ -115,7 +114,8 @@ Found JudgeDips(unsigned seed, RequirementKind kind, const Value& value,
     double peak = -1e9, elsewhere = -1e9;
     int at = 0;
     for (int k = 0; k <= 3 * 24; ++k) {
-      const double v = value(WorstAt(s, PlacesAt(s, std::min(k / 24, 2), k < 72 ? k % 24 / 24.0 : 1), start));
+      const double v =
+          value(WorstAt(s, PlacesAt(s, std::min(k / 24, 2), k < 72 ? k % 24 / 24.0 : 1), start));
       if (v > peak) {
         peak = v;
         at = k;

@@ -18,7 +18,8 @@ TEST(MotionBound, NoPointIsFasterOrMoreCrookedThanItsBound) {
     for (const size_t n : {size_t{2}, size_t{8}}) {
       KeyedNode& node = s.motion.nodes[n];
       node.translation_track = static_cast<int>(s.motion.translation_tracks.size());
-      s.motion.translation_tracks.push_back({node.translation, node.translation + make.Within(0.1)});
+      s.motion.translation_tracks.push_back(
+          {node.translation, node.translation + make.Within(0.1)});
     }
     std::vector<int> all(s.motion.nodes.size());
     for (size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
@@ -79,13 +80,13 @@ TEST(GapBound, IsNeverAboveTheDistanceAndNearIt) {
       }
     }
     const auto gap = [&](const PostureSample& at) -> Gap {
-      const ClosestPoints c = ClosestPointsOfSegments(at.node[0][1], at.node[0][2], at.node[1][1],
-                                                      at.node[1][2]);
+      const ClosestPoints c =
+          ClosestPointsOfSegments(at.node[0][1], at.node[0][2], at.node[1][1], at.node[1][2]);
       return {c.distance, c.normal};
     };
     const double carried = (bounds.carried[0] - bounds.carried[5]).norm();
-    const double bound = GapBound({&ends[0][0], &ends[0][1]}, {&ends[1][0], &ends[1][1]}, gap(p0),
-                                  gap(p1), carried);
+    const double bound =
+        GapBound({&ends[0][0], &ends[0][1]}, {&ends[1][0], &ends[1][1]}, gap(p0), gap(p1), carried);
     double least = 1e9;
     for (int k = 0; k <= 256; ++k) least = std::min(least, gap(PlacesAt(s, 0, k / 256.0)).distance);
     EXPECT_LE(bound, least);

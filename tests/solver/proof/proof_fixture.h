@@ -97,7 +97,8 @@ class SceneMaker {
   std::mt19937 random_;
 };
 
-// Places of all nodes at `u` in [0, 1] between two keys, and the rotations of their parents' frames.
+// Places of all nodes at `u` in [0, 1] between two keys, and the rotations of their parents'
+// frames.
 inline PostureSample PlacesAt(const RandomScene& s, int key, double u) {
   PostureSample out;
   std::vector<Quat> world(s.motion.nodes.size());
@@ -178,10 +179,11 @@ inline Worst WorstAt(const RandomScene& s, const PostureSample& now, const Postu
   }
   for (size_t i = 1; i < 5; ++i) {
     for (size_t j = 1; j < 5; ++j) {
-      const ClosestPoints c = ClosestPointsOfSegments(
-          now.node[0][size_t(body[0].nodes[i].parent)], now.node[0][i],
-          now.node[1][size_t(body[1].nodes[j].parent)], now.node[1][j]);
-      w.depth = std::max(w.depth, CapsuleDepth(c, body[0].nodes[i].radius, body[1].nodes[j].radius));
+      const ClosestPoints c =
+          ClosestPointsOfSegments(now.node[0][size_t(body[0].nodes[i].parent)], now.node[0][i],
+                                  now.node[1][size_t(body[1].nodes[j].parent)], now.node[1][j]);
+      w.depth =
+          std::max(w.depth, CapsuleDepth(c, body[0].nodes[i].radius, body[1].nodes[j].radius));
     }
   }
   for (const Hold& hold : s.subject.holds) {
