@@ -138,6 +138,7 @@ ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double r
   for (size_t j = 0; j < motion.rig.joints.size(); ++j) {
     if (motion.rig.joints[j].parent < 0) {
       scaled.clip.joints[j].scale *= ratio;
+      scaled.clip.joints[j].size *= ratio;
       continue;
     }
     for (RigFrame& frame : scaled.motion.frames) frame.translation[j] /= ratio;
@@ -272,6 +273,30 @@ RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& file
         .motion;
   }
   return ParseBvh(first.bytes, first.name).motion;
+}
+
+PlayedFile PlayedFileOf(const ClipFile& original, const std::vector<NamedBytes>& files) {
+  PlayedFile played;
+  played.format = original.format;
+  played.name = files[0].name;
+  played.bytes = files[0].bytes;
+  if (original.format == "Acclaim") {
+    played.skeleton = files[1].bytes;
+    played.fps = 1 / original.motion.frame_time;
+  }
+  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
+    played.folder = gltf->folder;
+    played.animation = kAnimationName;
+  }
+  return played;
+}
+
+PlayedJoint JointInFile(const ClipFile& original, int joint) {
+  PlayedJoint played{original.motion.rig.joints[joint].name};
+  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
+    played.node = gltf->joints[joint].node;
+  }
+  return played;
 }
 
 ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem) {

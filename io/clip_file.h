@@ -12,6 +12,7 @@
 #include "io/bvh/bvh.h"
 #include "io/gltf/clip.h"
 #include "io/named_bytes.h"
+#include "io/playback/playback.h"
 
 namespace retarget::io {
 
@@ -68,6 +69,10 @@ ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double r
 
 // The motion that such files hold, read as any reader would.
 RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& files);
+
+// The same files to be played by io/playback/playback.h, and a joint of the clip's rig in them.
+PlayedFile PlayedFileOf(const ClipFile& original, const std::vector<NamedBytes>& files);
+PlayedJoint JointInFile(const ClipFile& original, int joint);
 
 // Where FormatClipFile puts the motion in `folder`, for reading it back.
 ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem);

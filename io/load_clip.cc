@@ -7,6 +7,7 @@
 
 #include "io/files.h"
 #include "io/map_file.h"
+#include "model/body/travel.h"
 
 namespace retarget::io {
 namespace {
@@ -47,10 +48,15 @@ RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& 
     }
   }
   if (!options.up.empty()) recognise.up = options.up[0];
+  if (options.ik_targets != "follow" && options.ik_targets != "keep") {
+    throw InputError(fmt::format("{} {}: expected follow or keep",
+                                 options.Named(options.words.ik_targets), options.ik_targets));
+  }
   return recognise;
 }
 
 void Bind(LoadedClip* clip) {
+  if (clip->options.ik_targets == "keep") clip->facts.followers.clear();
   const int chest = ChestBone(clip->file.motion, clip->facts.map);
   try {
     clip->binding =
@@ -87,6 +93,33 @@ double LegLength(const Body& body) {
     }
   }
   return sum / 2;
+}
+
+// Gives a clip that strides in place its way over the floor, or says that it has none.
+void RecoverTravel(LoadedClip* clip) {
+  RigMotion& motion = clip->file.motion;
+  Clip poses;
+  poses.fps = 1 / motion.frame_time;
+  for (const RigFrame& frame : motion.frames) poses.frames.push_back(clip->binding->PoseOf(frame));
+  const Travel travel = FindTravel(clip->body, poses, ContactSettings());
+  if (!travel.clear()) return;
+  const std::string option = clip->options.Named(clip->options.words.travel);
+  if (clip->options.keep_in_place) {
+    clip->facts.notes.push_back(fmt::format(
+        "it seems to walk in place: its standing foot slides at {:.2f} m/s, and is left "
+        "so as asked for ({} keep)",
+        travel.sliding_speed, option));
+    return;
+  }
+  for (size_t t = 0; t < motion.frames.size(); ++t) {
+    Pose moved = poses.frames[t];
+    moved.root_position += travel.offset[t];
+    motion.frames[t] = clip->binding->Apply(motion.frames[t], moved);
+  }
+  clip->facts.notes.push_back(
+      fmt::format("it walks in place: its way was recovered from the standing foot, {:.1f} m at "
+                  "{:.2f} m/s on average; {} keep leaves it in place",
+                  travel.offset.back().norm(), travel.speed, option));
 }
 
 // The character with the motion of `clip`.
@@ -184,6 +217,7 @@ LoadedClip LoadClip(const ClipOptions& options) {
         options.path, options.Named(options.words.character), options.path));
   }
   Bind(&clip);
+  RecoverTravel(&clip);
   if (options.start > clip.duration() + 1e-9) {
     throw InputError(fmt::format("{} {}: {} is only {:.3f} s long",
                                  options.Named(options.words.start), options.start, options.path,

@@ -50,6 +50,7 @@ class MapReader {
     int above = root;
     for (const SidePart& part : kSideParts) {
       if (part.joint == &JointMap::Side::hip) above = root;
+      if (part.joint == &JointMap::Side::ankle) above = -1;  // feet may hang from a master bone
       int& joint = side.*part.joint;
       joint = ReadJoint(joints, prefix + part.name, part.required, above);
       if (joint >= 0) above = joint;

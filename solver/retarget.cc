@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "model/body/travel.h"
 #include "solver/metrics/metrics.h"
 #include "solver/metrics/requirements.h"
 #include "solver/problem/clock.h"
@@ -38,6 +39,20 @@ void WarnOfWeakTags(RetargetResult* result) {
     result->warnings.push_back(
         "the template has no tangles: only holds and contacts tie the figures");
   }
+}
+
+// A figure that stands in the template, and in whose clip no foot is ever planted.
+void WarnOfFeet(int f, RetargetResult* result) {
+  const Scene& scene = result->scene;
+  if (scene.posture.supports[f].empty() || !scene.contacts[f].empty()) return;
+  const Travel travel = FindTravel(scene.body[f], scene.source[f], ContactSettings());
+  char sentence[160];
+  std::snprintf(
+      sentence, sizeof sentence,
+      "no planted foot found in clip %c: nothing holds its feet, and nothing can be said of "
+      "them; the lowest moves at %.2f m/s (median)",
+      f == 0 ? 'a' : 'b', travel.sliding_speed);
+  result->warnings.emplace_back(sentence);
 }
 
 bool MeetsAll(const Problem& problem, const SolveResult& solved) {
@@ -127,6 +142,7 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
     scene.source[f] = Placed(input.clip[f], result.placement[f]);
   }
   WarnOfWeakTags(&result);
+  for (int f = 0; f < 2; ++f) WarnOfFeet(f, &result);
   return result;
 }
 

@@ -70,11 +70,13 @@ const std::map<std::string, Names>& KnownFolders() {
       {"io/bvh", {"io/text"}},
       {"io/acclaim", {"io/text"}},
       {"io/gltf", {"io/text", "io/bvh"}},  // one frame time for all formats: io/bvh/bvh.h
+      {"io/playback", {"io/text"}},
       {"io/recognition", {"io/text", "io/bvh", "io/acclaim", "io/gltf"}},
       {"io/render", {}},
       {"io/scene", {"io/text", "io/bvh", "io/acclaim", "io/gltf", "io/render"}},
       {"io",
-       {"io/text", "io/bvh", "io/acclaim", "io/gltf", "io/recognition", "io/render", "io/scene"}},
+       {"io/text", "io/bvh", "io/acclaim", "io/gltf", "io/playback", "io/recognition", "io/render",
+        "io/scene"}},
 
       {"tools/report", {}},
       {"tools/proof", {"tools/report"}},

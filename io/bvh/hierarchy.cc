@@ -82,7 +82,9 @@ class HierarchyReader {
       const std::vector<int> kinds = ReadChannels();
       const auto is_position = [](int kind) { return kind < kFirstRotationChannel; };
       // No channel stands twice, so three are all axes.
-      out_.rig.joints[joint.joint].translates = std::ranges::count_if(kinds, is_position) == 3;
+      RigJoint& rig_joint = out_.rig.joints[joint.joint];
+      rig_joint.translates = std::ranges::count_if(kinds, is_position) == 3;
+      rig_joint.can_translate = rig_joint.translates;
       out_.channels[joint.joint] = kinds;
       joint.has_channels = true;
     } else if (SameWord(word, "JOINT")) {

@@ -2,9 +2,10 @@
 // VRMA.
 //
 // A file's node tree becomes a rig: the joints of one character's skins, the nodes between them,
-// animated nodes above and below them, and what hangs below and carries no mesh. Everything still
-// above is folded into the roots, scales into the translations, so that the rig is rigid and in
-// metres, Y up.
+// nodes above and below them that are animated or scaled unevenly, and what hangs below and carries
+// no mesh. Everything still above is folded into the roots, even scales into the translations, so
+// that the rig is in metres, Y up. It is rigid unless its frames have scales: those that are uneven
+// or change, as shares of the folded ones.
 #pragma once
 
 #include <optional>
@@ -25,17 +26,19 @@ struct GltfSelect {
 };
 
 // What stands behind a joint of the rig: its transform in metres is
-//   translation = origin + turn (stretch .* t),  rotation = turn * q
-// of the node's own t and q. `origin` and `turn` are those of the folded nodes above a root.
+//   translation = origin + turn (stretch .* t),  rotation = turn * q,  scale = s / size
+// of the node's own t, q and s. `origin` and `turn` are those of the folded nodes above a root.
 struct GltfJoint {
   int node = -1;               // index in the file
   Vec3 origin = Vec3::Zero();  // m
   Quat turn = Quat::Identity();
-  Vec3 stretch = Vec3::Ones();           // m per unit
+  Vec3 stretch = Vec3::Ones();           // m per unit, even
   Vec3 rest_translation = Vec3::Zero();  // the node's own t, q and scale, whatever animates them
   Quat rest_rotation = Quat::Identity();
   Vec3 rest_scale = Vec3::Ones();
-  Vec3 scale = Vec3::Ones();  // in the animation
+  Vec3 scale = Vec3::Ones();  // in the animation, of its first key
+  double size = 1;            // of the scale, the part that is folded into what hangs below
+  bool changes_scale = false;
   bool has_translation_track = false;
 };
 

@@ -61,13 +61,18 @@ const GltfTrack* Find(const std::map<int, GltfTrack>& tracks, int node) {
 
 // Fills frames and key times.
 void SampleTracks(const GltfTracks& tracks, GltfClip* clip) {
-  std::vector<const GltfTrack*> translation, rotation, used;
+  std::vector<const GltfTrack*> translation, rotation, scale, used;
+  bool rigid = true;
   for (const GltfJoint& joint : clip->joints) {
     translation.push_back(Find(tracks.translation, joint.node));
     rotation.push_back(Find(tracks.rotation, joint.node));
-    for (const GltfTrack* track : {translation.back(), rotation.back()}) {
+    scale.push_back(joint.changes_scale ? Find(tracks.scale, joint.node) : nullptr);
+    for (const GltfTrack* track : {translation.back(), rotation.back(), scale.back()}) {
       if (track != nullptr) used.push_back(track);
     }
+    constexpr double kRounding = 1e-5;
+    const double left = (joint.scale.array() - joint.size).abs().maxCoeff();
+    rigid = rigid && !joint.changes_scale && left <= kRounding * joint.size;
   }
   FrameTimes frames = ChooseFrameTimes(used, clip->name);
   if (frames.times.size() * clip->joints.size() > kMostJointFrames) {
@@ -83,6 +88,10 @@ void SampleTracks(const GltfTracks& tracks, GltfClip* clip) {
       const Quat q = rotation[j] ? rotation[j]->Rotation(time) : joint.rest_rotation;
       frame.translation.push_back(joint.origin + joint.turn * joint.stretch.cwiseProduct(t));
       frame.rotation.push_back((joint.turn * q).normalized());
+      if (!rigid) {
+        const Vec3 s = scale[j] ? scale[j]->Translation(time) : joint.scale;
+        frame.scale.push_back(s / joint.size);
+      }
       // Tame numbers can multiply to wild ones.
       if (!frame.translation.back().allFinite()) {
         throw InputError(fmt::format("{}: joint {} leaves all bounds", clip->name,

@@ -52,7 +52,11 @@ NodeKeys KeysOf(const GltfJoint& joint, size_t j, const std::vector<RigFrame>& f
     keys.rotation.push_back(q);
   }
   if (!moves) keys.translation.clear();
-  if ((joint.scale - joint.rest_scale).cwiseAbs().maxCoeff() > kStill) {
+  if (joint.changes_scale) {
+    for (const RigFrame& frame : frames) {
+      keys.scale.push_back(frame.scale.empty() ? joint.scale : Vec3(joint.size * frame.scale[j]));
+    }
+  } else if ((joint.scale - joint.rest_scale).cwiseAbs().maxCoeff() > kStill) {
     keys.scale.assign(frames.size(), joint.scale);
   }
   return keys;

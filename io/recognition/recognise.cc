@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/recognition/joint_profiles.h"
+#include "io/recognition/loose_bones.h"
 #include "io/recognition/map_joints.h"
 #include "io/recognition/rig_check.h"
 #include "io/recognition/rig_measure.h"
@@ -115,6 +116,34 @@ JointMap FindJoints(const RigMotion& motion, const Refusal& refusal, RigFacts* f
                                     Printable(match.misplaced.front())));
 }
 
+// Feet that a convention's reading has left out because of what they hang from.
+void TakeLooseFeet(const RigMotion& motion, RigFacts* facts) {
+  for (const std::string& name : FindLooseFeet(motion, &facts->map)) {
+    const std::string bone = "'" + Printable(name) + "'";
+    std::erase(facts->notes, bone + " hangs where no human has it: left out");
+    facts->notes.push_back(bone +
+                           " does not hang from its shin, but stands at the end of it: the "
+                           "ankle");
+  }
+}
+
+void NoteFollowers(const RigMotion& motion, const OptionWords& words, RigFacts* facts) {
+  facts->followers = FindFollowers(motion, facts->map, facts->metres_per_unit, facts->stature);
+  constexpr size_t kShown = 6;
+  std::string list;
+  for (size_t n = 0; n < std::min(kShown, facts->followers.size()); ++n) {
+    const auto& [joint, bone] = facts->followers[n];
+    list += fmt::format("{}'{}' goes with '{}'", n > 0 ? ", " : "",
+                        Printable(motion.rig.joints[joint].name),
+                        Printable(motion.rig.joints[bone].name));
+  }
+  if (facts->followers.size() > kShown) {
+    list += fmt::format(" and {} more", facts->followers.size() - kShown);
+  }
+  if (!list.empty())
+    facts->notes.push_back(fmt::format("{} ({} keep: not)", list, words.ik_targets));
+}
+
 }  // namespace
 
 RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
@@ -124,10 +153,12 @@ RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
   }
   RigFacts facts;
   facts.map = options.map ? *options.map : FindJoints(motion, {file_name, options.words}, &facts);
+  if (!options.map) TakeLooseFeet(motion, &facts);
   const RigMeasure figure(motion, facts.map);
   FindUnit(FigureHeight(figure), options, file_name, &facts);
   FindUp(figure, options, file_name, &facts);
   CheckRig(figure, &facts);
+  NoteFollowers(motion, options.words, &facts);
   facts.t_pose_frames = TPoseFrames(motion, figure.points, UpAxis(facts));
   NoteTPose(motion, figure.points, options.words, &facts);
   return facts;

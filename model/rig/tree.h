@@ -14,6 +14,11 @@ inline bool DescendsFrom(const Rig& rig, int joint, int ancestor) {
   return joint == ancestor && joint >= 0;
 }
 
+inline int TopOf(const Rig& rig, int joint) {
+  while (rig.joints[joint].parent >= 0) joint = rig.joints[joint].parent;
+  return joint;
+}
+
 // The lowest joint above both (or one of them); -1 where they share none.
 inline int CommonAncestor(const Rig& rig, int a, int b) {
   while (a != b && a >= 0 && b >= 0) (a > b ? a : b) = rig.joints[std::max(a, b)].parent;

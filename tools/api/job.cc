@@ -10,6 +10,7 @@
 #include "io/scene/scene_glb.h"
 #include "io/template_file.h"
 #include "io/text/read_file.h"
+#include "model/rig/write_back.h"
 #include "tools/api/version.h"
 #include "tools/report/report.h"
 
@@ -114,6 +115,7 @@ namespace {
 
 // `motion`: of the scene's bodies, from its first frame on; `scene`: its file.
 std::string ShowCharacters(const Job& job, const std::array<Clip, 2>& motion,
+                           const std::array<solver::Placement, 2>& placement,
                            const std::string& scene, std::vector<std::string>* notes) {
   std::array<io::ScaledGltf, 2> scaled;
   std::array<io::SceneCharacter, 2> character;
@@ -128,8 +130,10 @@ std::string ShowCharacters(const Job& job, const std::array<Clip, 2>& motion,
     own.frame_time = 1 / fps;
     for (size_t t = 0; t < motion[f].frames.size(); ++t) {
       const double time = clip.options.start + (job.frames.first + static_cast<double>(t)) / fps;
-      own.frames.push_back(
-          clip.binding->Apply(SampleRig(clip.file.motion, time), motion[f].frames[t]));
+      own.frames.push_back(WrittenFrame(
+          *clip.binding, SampleRig(clip.file.motion, time),
+          [&](const Pose& pose) { return solver::Placed(pose, placement[f]); },
+          motion[f].frames[t]));
     }
     scaled[f] = io::ScaleGltf(*gltf, own, clip.binding->stature_ratio());
     character[f] = {&scaled[f].clip, &scaled[f].motion};
@@ -149,12 +153,12 @@ std::string SceneBytes(const std::array<Body, 2>& body, const std::array<Clip, 2
 void CheckCharacters(const Job& job) {
   std::array<Clip, 2> first = job.input.clip;
   for (Clip& clip : first) clip.frames.resize(1);
-  ShowCharacters(job, first, SceneBytes(job.input.body, first), nullptr);
+  ShowCharacters(job, first, {}, SceneBytes(job.input.body, first), nullptr);
 }
 
 std::string CharacterScene(const Job& job, const solver::RetargetResult& result,
                            const std::string& scene, std::vector<std::string>* notes) {
-  return ShowCharacters(job, result.solved, scene, notes);
+  return ShowCharacters(job, result.solved, result.placement, scene, notes);
 }
 
 std::string SceneBytes(const solver::Scene& scene, const std::array<Clip, 2>& clips) {

@@ -34,9 +34,12 @@ WrittenRig WriteRig(const Job& job, const solver::RetargetResult& result, int f,
     const int joint = clip.binding->JointAtNode(n);
     if (joint >= 0) out.joints.push_back({n, joint});
   }
-  out.error_m =
-      report::WriteBackError(io::ReadBack(clip.file, out.files), clip.file.motion.rig,
-                             clip.facts.metres_per_unit, clip.facts.up, out.joints, scene, f);
+  std::vector<report::NodePlayed> played;
+  for (const report::NodeJoint& pair : out.joints) {
+    played.push_back({pair.node, io::JointInFile(clip.file, pair.joint)});
+  }
+  out.error_m = report::WriteBackError(io::PlayedFileOf(clip.file, out.files),
+                                       clip.facts.metres_per_unit, clip.facts.up, played, scene, f);
   return out;
 }
 

@@ -122,6 +122,8 @@ report::Json WriteBackJson(const RunFacts& run, int f) {
   for (const report::NodeJoint& pair : run.rig[f].joints) {
     written["joints"][run.job.input.body[f].nodes[pair.node].name] =
         run.job.clip[f].file.motion.rig.joints[pair.joint].name;
+    const int node = io::JointInFile(file, pair.joint).node;
+    if (node >= 0) written["nodes"][run.job.input.body[f].nodes[pair.node].name] = node;
   }
   return written;
 }

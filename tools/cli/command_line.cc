@@ -30,11 +30,23 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
   app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
+  app->add_option("--ik-targets" + suffix, clip->ik_targets,
+                  "what targets of inverse kinematics do: follow their limbs, or keep")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"follow", "keep"}))
+      ->group(group);
   if (!solve) return;
   app->add_option("--character" + suffix, clip->character,
                   "put the motion on this character (glTF, VRM, BVH) and solve on its body")
       ->group(group);
   app->add_option("--character-map" + suffix, clip->character_map, "joint map of the character")
+      ->group(group);
+  app->add_option_function<std::string>(
+         "--travel" + suffix,
+         [clip](const std::string& what) { clip->keep_in_place = what == "keep"; },
+         "a clip that strides in place: recover its way from the standing foot, or keep it")
+      ->check(CLI::IsMember({"recover", "keep"}))
+      ->default_str("recover")
       ->group(group);
   app->add_option("--start" + suffix, clip->start, "seconds into the clip")
       ->check(CLI::NonNegativeNumber)

@@ -10,6 +10,8 @@ io::OptionWords ProgramWords() {
           .up = "--up",
           .skip_frames = "--skip-frames",
           .start = "--start",
+          .travel = "--travel",
+          .ik_targets = "--ik-targets",
           .character = "--character",
           .map_by_hand =
               "`retarget map {} --yaml > a.map.yaml`, edit it, give it with --map-a "

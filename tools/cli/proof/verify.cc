@@ -22,24 +22,24 @@ namespace {
 // Largest distance of the written rig to the scene (m), from the files.
 double WriteBackOf(const report::Json& written, const std::string& folder, int f,
                    const solver::MotionView& scene, const Body& body) {
-  const std::string file = written.at("file");
-  io::ClipPath path;
-  path.path = folder + "/" + file;
+  io::PlayedFile file;
+  file.format = written.at("format");
+  file.name = folder + "/" + written.at("file").get<std::string>();
+  file.bytes = io::ReadFile(file.name);
+  file.folder = folder;
+  file.animation = written.value("animation", "");
+  file.fps = written.value("fps", io::kAcclaimFps);
   if (written.contains("skeleton")) {
-    path.skeleton = folder + "/" + written.at("skeleton").get<std::string>();
+    file.skeleton = io::ReadFile(folder + "/" + written.at("skeleton").get<std::string>());
   }
-  path.select.animation = written.value("animation", "");
-  path.select.skin = written.value("skin", "");
-  const RigMotion motion = io::ReadClipFile(path, written.value("fps", io::kAcclaimFps)).motion;
-  std::vector<report::NodeJoint> joints;
+  std::vector<report::NodePlayed> joints;
   for (const auto& [node, bone] : written.at("joints").items()) {
-    const int joint = motion.rig.Find(bone.get<std::string>());
-    if (joint < 0)
-      throw InputError(folder + "/" + file + ": has no joint " + bone.get<std::string>());
+    io::PlayedJoint joint{bone.get<std::string>()};
+    if (written.contains("nodes")) joint.node = written.at("nodes").value(node, -1);
     joints.push_back({body.FindNode(node), joint});
   }
   const std::string up = written.at("up");
-  return report::WriteBackError(motion, motion.rig, written.at("units"), up[0], joints, scene, f);
+  return report::WriteBackError(file, written.at("units"), up[0], joints, scene, f);
 }
 
 void CheckFrames(const report::MeasuredScene& scene, const std::string& path, int frames) {
