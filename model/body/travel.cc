@@ -13,10 +13,10 @@ constexpr double kLeastStance = 0.1;     // of these weights: less, and no foot 
 constexpr double kBlur = 0.06;           // s, of the treadmill's speed
 constexpr int kRefinements = 3;
 // What is clear (see the header).
-constexpr double kSlides = 0.3;           // m/s
-constexpr double kStandsAsCaptured = 0.1; // share of frames with a planted foot, at most
-constexpr double kRootShare = 0.25;       // of the recovered way, that the root goes by itself
-constexpr double kStandsRecovered = 0.25; // share of frames with a planted foot, at least
+constexpr double kSlides = 0.3;            // m/s
+constexpr double kStandsAsCaptured = 0.1;  // share of frames with a planted foot, at most
+constexpr double kRootShare = 0.25;        // of the recovered way, that the root goes by itself
+constexpr double kStandsRecovered = 0.25;  // share of frames with a planted foot, at least
 
 Vec3 Horizontal(const Vec3& v) { return Vec3(v.x(), 0, v.z()); }
 
@@ -170,7 +170,8 @@ Travel FindTravel(const Body& body, const Clip& clip, const ContactSettings& set
     // Now that the feet come to rest, only what is planted says how fast the treadmill is: a foot
     // that is about to leave is already slower or faster.
     const Treadmill planted = PlantedOnly(treadmill, feet, offset, clip.fps, settings);
-    if (std::all_of(planted.weight.begin(), planted.weight.end(), [](double w) { return w == 0; })) {
+    if (std::all_of(planted.weight.begin(), planted.weight.end(),
+                    [](double w) { return w == 0; })) {
       return travel;
     }
     offset = OffsetOf(planted, clip.fps);

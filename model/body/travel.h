@@ -14,8 +14,8 @@ struct Travel {
   // Horizontal, per frame from the first (m): added to the root, standing feet stand. Empty where
   // the feet do not say clearly that it is missing.
   std::vector<Vec3> offset;
-  double speed = 0;           // mean (m/s)
-  double sliding_speed = 0;   // of the lowest foot node as captured, median (m/s)
+  double speed = 0;          // mean (m/s)
+  double sliding_speed = 0;  // of the lowest foot node as captured, median (m/s)
   bool clear() const { return !offset.empty(); }
 };
 

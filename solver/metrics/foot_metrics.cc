@@ -16,8 +16,8 @@ double ShareNearFloor(double before, double after) {
   return (kNearFloor - std::min(before, after)) / std::abs(after - before);
 }
 
-// Horizontal path from frame first - 1 (where there is one) to last + 1, as far as the node's lowest
-// point is near the floor. Negative: it is never near it.
+// Horizontal path from frame first - 1 (where there is one) to last + 1, as far as the node's
+// lowest point is near the floor. Negative: it is never near it.
 double NearFloorPath(const std::vector<NodePositions>& motion, int figure, const Swing& swing,
                      double radius) {
   double path = 0;
@@ -37,8 +37,8 @@ double LargestAcceleration(const std::vector<NodePositions>& motion, int figure,
   const int last = static_cast<int>(motion.size()) - 2;
   double largest = 0;
   for (int t = std::max(1, frame - kEdgeReach); t <= std::min(last, frame + kEdgeReach); ++t) {
-    const Vec3 second = motion[t + 1][figure][node] - 2 * motion[t][figure][node] +
-                        motion[t - 1][figure][node];
+    const Vec3 second =
+        motion[t + 1][figure][node] - 2 * motion[t][figure][node] + motion[t - 1][figure][node];
     largest = std::max(largest, second.norm() * fps * fps);
   }
   return largest;

@@ -280,8 +280,7 @@ class Advancer {
       }
       case Kind::kSegmentLength:
         return Length(i);
-      case Kind::kPenetrationOver1cm:
-      case Kind::kWriteBack:
+      default:  // of frames alone
         break;
     }
     return {0, 2};

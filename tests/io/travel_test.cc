@@ -61,10 +61,9 @@ TEST(Travel, AGaitInPlaceIsTheTravellingOne) {
     const Vec3 expected = should.frames[t].root_position - should.frames[0].root_position;
     EXPECT_LT((moved - expected).norm(), 0.02) << "frame " << t;
   }
-  EXPECT_TRUE(std::any_of(recovered.facts.notes.begin(), recovered.facts.notes.end(),
-                          [](const std::string& note) {
-                            return note.find("walks in place") != std::string::npos;
-                          }));
+  EXPECT_TRUE(std::any_of(
+      recovered.facts.notes.begin(), recovered.facts.notes.end(),
+      [](const std::string& note) { return note.find("walks in place") != std::string::npos; }));
   io::ClipOptions keep;
   keep.path = folder + "in_place.bvh";
   keep.keep_in_place = true;

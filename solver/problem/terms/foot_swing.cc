@@ -65,9 +65,8 @@ FootSwing::FootSwing(const Scene& scene) {
       foot.height /= contact.last - contact.first + 1;
       const Contact reach = Reach(scene, f, contact);
       const auto guide = [&](int t, int edge) {
-        const double weight =
-            Fade(node[t][n].y() - foot.height, kLow, kHigh) *
-            Fade(std::abs(t - edge) / scene.fps(), kSoon, kLate);
+        const double weight = Fade(node[t][n].y() - foot.height, kLow, kHigh) *
+                              Fade(std::abs(t - edge) / scene.fps(), kSoon, kLate);
         if (weight < kLeastWeight) return false;
         foot.guided.push_back({t, weight, node[t][n] - node[edge][n]});
         return true;
@@ -90,13 +89,12 @@ int FootSwing::row_slots(const Frame& frame) const {
 
 void FootSwing::EvaluatePart(const Frame& frame, int anchor, Rows* rows) const {
   const Foot& foot = feet_[static_cast<size_t>(anchor)];
-  const auto guided =
-      std::lower_bound(foot.guided.begin(), foot.guided.end(), frame.t,
-                       [](const Guided& g, int t) { return g.t < t; });
+  const auto guided = std::lower_bound(foot.guided.begin(), foot.guided.end(), frame.t,
+                                       [](const Guided& g, int t) { return g.t < t; });
   if (guided == foot.guided.end() || guided->t != frame.t) return;
   const int f = foot.figure;
-  const Quat turned = frame.pose[f].rotation[0] *
-                      frame.scene->source[f].frames[frame.t].rotation[0].conjugate();
+  const Quat turned =
+      frame.pose[f].rotation[0] * frame.scene->source[f].frames[frame.t].rotation[0].conjugate();
   const Heading heading = HeadingOf(turned);
   const Vec3& d = guided->way;
   const double c = heading.cosine, s = heading.sine, w = guided->weight;

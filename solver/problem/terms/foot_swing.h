@@ -4,9 +4,9 @@
 // e is the first or last frame of the contact, a its anchor, h its mean height in the source, s the
 // node in the source, theta the heading by which the edit has turned the root (swing-twist about
 // the vertical). w fades from 1 to 0 with the foot's height over the contact and with time from its
-// end, so that an edited stride is made up for where the foot is high. Without it a foot that is let
-// go returns to its tracked place at once, over the floor.
-// 1 frame and the anchor, 1 body. YAML: weights.foot_swing.
+// end, so that an edited stride is made up for where the foot is high. Without it a foot that is
+// let go returns to its tracked place at once, over the floor. 1 frame and the anchor, 1 body.
+// YAML: weights.foot_swing.
 #pragma once
 
 #include <vector>

@@ -14,7 +14,8 @@ namespace retarget::io {
 namespace {
 
 constexpr const char* kArm =
-    "HIERARCHY\nROOT Upper arm\n{ OFFSET 0 1 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation "
+    "HIERARCHY\nROOT Upper arm\n{ OFFSET 0 1 0\n CHANNELS 6 Xposition Yposition Zposition "
+    "Zrotation "
     "Xrotation Yrotation\n JOINT Lower\n { OFFSET 2 0 0\n CHANNELS 1 Zrotation\n End Site\n { "
     "OFFSET 3 0 0 }\n }\n}\nMOTION\nFrames: 2\nFrame Time: 0.5\n1 2 3 0 0 0 0\n1 2 3 90 0 0 45\n";
 

@@ -44,8 +44,8 @@ TEST_F(FootMetricsTest, ASwingsTravelIsItsPathNearTheFloor) {
   subject_.contacts[0] = {{toe_, 0, 4}, {toe_, 12, 19}};
   // 3 cm and 4 cm per frame from frame 4 to frame 12: 8 steps of 5 cm. The source takes half.
   const auto way = [](int t) -> Vec3 { return std::clamp(t - 4, 0, 8) * Vec3(0.03, 0, 0.04); };
-  const auto swings = MeasureSwings(subject_, 0, Motion(way),
-                                    Motion([&](int t) -> Vec3 { return 0.5 * way(t); }));
+  const auto swings =
+      MeasureSwings(subject_, 0, Motion(way), Motion([&](int t) -> Vec3 { return 0.5 * way(t); }));
   ASSERT_EQ(swings.size(), 1u);
   EXPECT_EQ(swings[0].node, toe_);
   EXPECT_EQ(swings[0].first, 5);

@@ -1,5 +1,5 @@
-// What is written reaches every bone of a figure, whatever it hangs from, and stands where the scene
-// has it when it is played by the rules of its format.
+// What is written reaches every bone of a figure, whatever it hangs from, and stands where the
+// scene has it when it is played by the rules of its format.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ using nlohmann::json;
 
 // A run of `clip` with the partner of the bear hug.
 Outcome RunClip(const Scratch& scratch, const std::string& clip, const std::string& more = "",
-            const std::string& out = "out") {
+                const std::string& out = "out") {
   return RunProgram(scratch, fmt::format("--clip-a {} --clip-b {}/b.bvh --template "
                                          "{}/template.yaml --frames 0:60 --out {} {}",
                                          clip, kHold, kHold, scratch / out, more));
@@ -126,12 +126,12 @@ std::string WithTargets() {
   const std::string channels =
       "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n";
   std::string more = "ROOT ik_root\n{\nOFFSET 0 0 0\n" + channels, row = " 0 0 0 0 0 0";
-  for (const auto& [name, joint] : {std::pair("ik_foot_l", "LeftFoot"), {"ik_foot_r", "RightFoot"},
-                                    {"prop", "LeftUpLeg"}}) {
+  for (const auto& [name, joint] :
+       {std::pair("ik_foot_l", "LeftFoot"), {"ik_foot_r", "RightFoot"}, {"prop", "LeftUpLeg"}}) {
     const Vec3 at = PoseRig(rig, file.motion.frames[0]).position[rig.Find(joint)] +
                     (name == std::string("prop") ? Vec3(60, 0, 0) : Vec3::Zero());
-    more += fmt::format("JOINT {}\n{{\nOFFSET {} {} {}\n{}End Site\n{{\nOFFSET 0 5 0\n}}\n}}\n", name,
-                        at.x(), at.y(), at.z(), channels);
+    more += fmt::format("JOINT {}\n{{\nOFFSET {} {} {}\n{}End Site\n{{\nOFFSET 0 5 0\n}}\n}}\n",
+                        name, at.x(), at.y(), at.z(), channels);
     row += fmt::format(" {} {} {} 0 0 0", at.x(), at.y(), at.z());
   }
   text.insert(text.find("MOTION"), more + "}\n");
@@ -166,15 +166,15 @@ TEST(WholeRig, TargetsFollowAndWhatHangsBesideIsPlaced) {
     for (int k = 0; k < after.num_frames(); k += 10) {
       for (const auto& [target, foot] :
            {std::pair("ik_foot_l", "LeftFoot"), {"ik_foot_r", "RightFoot"}}) {
-        apart = std::max(apart, (place_in(after, k, target, foot) - place_in(before, k, target, foot))
-                                    .norm());
+        apart = std::max(
+            apart, (place_in(after, k, target, foot) - place_in(before, k, target, foot)).norm());
         from_root = std::max(from_root, (place_in(after, k, target, "ik_root") -
                                          place_in(before, k, target, "ik_root"))
                                             .norm());
       }
-      prop = std::max(prop, (place_in(after, k, "prop", "ik_root") -
-                             place_in(before, k, "prop", "ik_root"))
-                                .norm());
+      prop = std::max(
+          prop,
+          (place_in(after, k, "prop", "ik_root") - place_in(before, k, "prop", "ik_root")).norm());
     }
     EXPECT_LT(prop, 1e-4) << "it is no target";
     if (follow) {
@@ -229,8 +229,8 @@ TEST(WholeRig, FeetThatHangFromTheMasterBone) {
       const PosedRig posed = PoseRig(motion.rig, frame);
       for (const std::string side : {"Left", "Right"}) {
         const int shin = motion.rig.Find(side + "Leg"), foot = motion.rig.Find(side + "Foot");
-        const Vec3 end = posed.position[shin] +
-                         posed.rotation[shin] * motion.rig.joints[shin].end_site.value();
+        const Vec3 end =
+            posed.position[shin] + posed.rotation[shin] * motion.rig.joints[shin].end_site.value();
         EXPECT_LT((posed.position[foot] - end).norm(), 0.2) << "cm";
         ++checked;
       }
