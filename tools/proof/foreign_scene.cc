@@ -21,8 +21,8 @@ void TakeTemplate(const TemplatePosture& posture, const std::vector<Hold>& holds
                                  report::kFigure[f], posture.body[f].num_nodes(),
                                  scene->subject.body[f].num_nodes()));
   }
-  scene->subject.tangles = solver::TangleTargets(
-      solver::FindTemplateTangles(posture, tangle).tags, posture, tangle.margin);
+  scene->subject.tangles = solver::TangleTargets(solver::FindTemplateTangles(posture, tangle).tags,
+                                                 posture, tangle.margin);
   for (const Hold& hold : holds) {
     if (hold.from.figure == kWorld || hold.to.figure == kWorld) {
       scene->notes.push_back("a hold to the world is not judged: the scene stands elsewhere");
@@ -43,9 +43,9 @@ void MeasureLengths(ForeignScene* scene) {
     const Body& body = scene->subject.body[f];
     scene->subject.length[f].assign(body.nodes.size(), 0);
     for (int n = 1; n < body.num_nodes(); ++n) {
-      scene->subject.length[f][n] = (posture.origin[scene->node[f][n]] -
-                                     posture.origin[scene->node[f][body.nodes[n].parent]])
-                                        .norm();
+      scene->subject.length[f][n] =
+          (posture.origin[scene->node[f][n]] - posture.origin[scene->node[f][body.nodes[n].parent]])
+              .norm();
     }
   }
 }
@@ -154,8 +154,8 @@ class RigAdder {
       KeyedNode node;
       node.parent = first_ + joint;
       const Vec3 above = UpTurn() * (clip_.facts.metres_per_unit * rig_at_start_.position[joint]);
-      node.translation = (UpTurn() * rig_at_start_.rotation[joint]).conjugate() *
-                         (body_at_start_.node[n] - above);
+      node.translation =
+          (UpTurn() * rig_at_start_.rotation[joint]).conjugate() * (body_at_start_.node[n] - above);
       ids.push_back(static_cast<int>(nodes_.size()));
       nodes_.push_back(node);
     }

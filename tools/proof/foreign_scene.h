@@ -28,7 +28,8 @@ ForeignScene ReadNamedFigures(const std::string& path, const TemplatePosture& po
 
 // Two clips of any format, or two figures of one file (path#skin=..., or one joint map each). The
 // bodies are measured in the clips, radii come from their skins or from tables. Between the frames
-// of either, joints move as between keys of a glTF; figures of different rates get the keys of both.
+// of either, joints move as between keys of a glTF; figures of different rates get the keys of
+// both.
 ForeignScene ReadFigures(const std::array<io::ClipOptions, 2>& figures,
                          const TemplatePosture& posture, const TangleSettings& tangle);
 

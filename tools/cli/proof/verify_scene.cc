@@ -1,4 +1,5 @@
-// `retarget verify --scene x.glb --template T.yaml`: what any program made, proved against a template.
+// `retarget verify --scene x.glb --template T.yaml`: what any program made, proved against a
+// template.
 #include <fmt/format.h>
 
 #include "io/template_file.h"
