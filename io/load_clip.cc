@@ -7,7 +7,9 @@
 
 #include "io/files.h"
 #include "io/map_file.h"
+#include "io/text/quoted.h"
 #include "model/body/travel.h"
+#include "model/rig/tree.h"
 
 namespace retarget::io {
 namespace {
@@ -33,7 +35,8 @@ LoadedClip ReadClip(const ClipOptions& options) {
 
 // What the options, the map file and the format say, in this order.
 RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& file) {
-  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map, options.words};
+  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map, options.words,
+                             options.stature};
   if (!options.map.empty()) {
     MapFile map = ReadMap(options.map, file.motion.rig);
     if (map.metres_per_unit) recognise.metres_per_unit = map.metres_per_unit;
@@ -43,7 +46,7 @@ RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& 
   if (!options.units.empty()) {
     recognise.metres_per_unit = ParseUnits(options.units);
     if (!recognise.metres_per_unit) {
-      throw InputError(fmt::format("{} {}: expected cm, m, mm, in, cmu or metres per unit",
+      throw InputError(fmt::format("{} {}: expected cm, m, mm, dm, in, cmu or metres per unit",
                                    options.Named(options.words.units), options.units));
     }
   }
@@ -53,6 +56,30 @@ RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& 
                                  options.Named(options.words.ik_targets), options.ik_targets));
   }
   return recognise;
+}
+
+std::string FigureNote(const std::vector<std::string>& figures) {
+  std::string list;
+  for (size_t n = 0; n < figures.size(); ++n) {
+    list += fmt::format("{}{} {}", n > 0 ? ", " : "", n, Quoted(figures[n]));
+  }
+  return fmt::format(
+      "the file holds {} figures, {}: the first one is read; #figure=1 after its name selects the "
+      "next",
+      figures.size(), list);
+}
+
+// Recognises the first of several figures, in the joints of all.
+RigFacts RecogniseFile(const ClipFile& file, const RecogniseOptions& options,
+                       const std::string& name) {
+  if (file.figure_joints.empty() || options.map) return Recognise(file.motion, options, name);
+  const std::vector<int>& joints = file.figure_joints;
+  RigFacts facts = Recognise(MotionOfJoints(file.motion, joints), options, name);
+  VisitJoints(&facts.map, [&](int* joint) {
+    if (*joint >= 0) *joint = joints[static_cast<size_t>(*joint)];
+  });
+  facts.notes.insert(facts.notes.begin(), FigureNote(file.figures));
+  return facts;
 }
 
 void Bind(LoadedClip* clip) {
@@ -138,7 +165,7 @@ LoadedClip OnCharacter(LoadedClip clip) {
   options.units = options.up = "";
   RigMotion& motion = hero.file.motion;
   motion.frames.resize(1);
-  hero.facts = Recognise(motion, RecogniseOptionsOf(options, hero.file), options.path);
+  hero.facts = RecogniseFile(hero.file, RecogniseOptionsOf(options, hero.file), options.path);
   hero.facts.notes.insert(hero.facts.notes.begin(), hero.file.notes.begin(), hero.file.notes.end());
   hero.options.path = options.path;
   Bind(&hero);
@@ -186,7 +213,7 @@ std::string MapOfClip(const ClipOptions& options) {
   const ClipFile file = ReadClip(options).file;
   const RecogniseOptions recognise = RecogniseOptionsOf(options, file);
   try {
-    return FormatMap(file.motion, Recognise(file.motion, recognise, options.path));
+    return FormatMap(file.motion, RecogniseFile(file, recognise, options.path));
   } catch (const InputError& refusal) {
     return FormatMapDraft(file.motion, refusal.what());
   }
@@ -195,7 +222,7 @@ std::string MapOfClip(const ClipOptions& options) {
 LoadedClip RecogniseClip(const ClipOptions& options) {
   LoadedClip clip = ReadClip(options);
   RigMotion& motion = clip.file.motion;
-  clip.facts = Recognise(motion, RecogniseOptionsOf(options, clip.file), options.path);
+  clip.facts = RecogniseFile(clip.file, RecogniseOptionsOf(options, clip.file), options.path);
   clip.facts.notes.insert(clip.facts.notes.begin(), clip.file.notes.begin(), clip.file.notes.end());
   if (options.skip_frames >= motion.num_frames()) {
     throw InputError(fmt::format("{} {}: {} has only {} frames",

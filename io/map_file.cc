@@ -155,7 +155,7 @@ MapFile ParseMap(const std::string& text, const std::string& name, const Rig& ri
   MapFile file;
   if (const auto units = root.Find("units")) {
     file.metres_per_unit = ParseUnits(units->Text());
-    if (!file.metres_per_unit) units->RefuseExpecting("cm, m, mm, in, cmu or metres per unit");
+    if (!file.metres_per_unit) units->RefuseExpecting("cm, m, mm, dm, in, cmu or metres per unit");
   }
   if (const auto up = root.Find("up")) {
     file.up = up->Name("axis", {"y", "z"}) == 0 ? 'y' : 'z';

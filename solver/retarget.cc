@@ -3,10 +3,8 @@
 #include <cstdio>
 
 #include "model/body/travel.h"
-#include "solver/metrics/metrics.h"
-#include "solver/metrics/requirements.h"
-#include "solver/problem/clock.h"
-#include "solver/start/start.h"
+#include "solver/attempts.h"
+#include "solver/problem/root_targets.h"
 #include "solver/start/weak_tags.h"
 
 namespace retarget::solver {
@@ -55,72 +53,6 @@ void WarnOfFeet(int f, RetargetResult* result) {
   result->warnings.emplace_back(sentence);
 }
 
-bool MeetsAll(const Problem& problem, const SolveResult& solved) {
-  const Scene& scene = problem.scene();
-  const std::array<Clip, 2> clips = EditedClips(scene, solved.unknowns);
-  const MetricsContext subject = MetricsContextOf(scene);
-  const Metrics metrics =
-      Measure(subject, ViewOf(scene.body, clips), ViewOf(scene.body, scene.source));
-  return AllMet(CheckRequirements(subject, metrics, problem.settings().requirements));
-}
-
-SolveResult SolveFrom(const Problem& problem, Start start, const Progress& progress,
-                      RetargetResult* result) {
-  const double started = SecondsNow();
-  const Unknowns guess = start == Start::kSimulated
-                             ? UnknownsFromPoses(problem.scene(), result->simulation.motion)
-                             : TemplateStart(problem);
-  result->start_seconds += SecondsNow() - started;
-  SolveResult solved = SolveSpacetime(problem, guess, progress);
-  const SolveSettings& settings = problem.settings().solve;
-  if (solved.status != SolveStatus::kConverged || settings.max_seconds > 0 ||
-      settings.stages.size() == 1 || MeetsAll(problem, solved)) {
-    return solved;
-  }
-  // While contacts were weak a limb may have come to lie on the wrong side, and the guard lets it
-  // not back through: full contacts from the start keep it where it was.
-  SolveResult full = SolveSpacetime(problem, guess, {1}, progress);
-  const bool better = full.cost < solved.cost || MeetsAll(problem, full);
-  const bool interrupted = full.status == SolveStatus::kInterrupted;
-  const double seconds = solved.seconds + full.seconds;  // both were needed
-  if (better) solved = std::move(full);
-  if (interrupted) solved.status = SolveStatus::kInterrupted;
-  solved.seconds = seconds;
-  return solved;
-}
-
-// Solves from the start that the settings ask for, as far as the simulation allows.
-void SolveFromStart(const Problem& problem, const Progress& progress, RetargetResult* result) {
-  StartChoice& choice = result->start;
-  choice.requested = problem.settings().solve.start;
-  const SimulationResult& simulation = result->simulation;
-  const bool usable = simulation.status == SimulationStatus::kCompleted;
-  const bool try_simulated = choice.requested != Start::kTemplate && usable;
-  const bool try_template = choice.requested != Start::kSimulated || !usable;
-  choice.used = try_simulated ? Start::kSimulated : Start::kTemplate;
-  choice.reason = choice.requested == Start::kTemplate || usable
-                      ? "as asked for"
-                      : "the simulation cannot be a start: " + simulation.message;
-  if (try_simulated) {
-    result->solve = SolveFrom(problem, Start::kSimulated, progress, result);
-    choice.simulated_cost = result->solve.cost;
-    if (result->solve.status == SolveStatus::kInterrupted) return;
-  }
-  if (!try_template) return;
-  SolveResult other = SolveFrom(problem, Start::kTemplate, progress, result);
-  choice.template_cost = other.cost;
-  if (try_simulated) {
-    choice.used = other.cost < result->solve.cost ? Start::kTemplate : Start::kSimulated;
-    choice.reason = "the cheaper of both";
-    other.seconds += result->solve.seconds;  // both were needed
-    if (choice.used == Start::kSimulated) {
-      result->solve.seconds = other.seconds;
-      return;
-    }
-  }
-  result->solve = std::move(other);
-}
-
 }  // namespace
 
 RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
@@ -141,6 +73,7 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
                                   scene.posture.pose[f], scene.contacts[f]);
     scene.source[f] = Placed(input.clip[f], result.placement[f]);
   }
+  scene.base = EditBase(scene);
   WarnOfWeakTags(&result);
   for (int f = 0; f < 2; ++f) WarnOfFeet(f, &result);
   return result;
@@ -151,7 +84,7 @@ RetargetResult Retarget(const RetargetInput& input, const Settings& settings,
   RetargetResult result = Prepare(input, settings);
   const Problem problem(result.scene, settings);
   result.simulation = Simulate(result.scene, settings.simulation);
-  SolveFromStart(problem, progress, &result);
+  SolveInAttempts(problem, progress, &result);
   if (result.solve.stalled) {
     result.warnings.push_back(
         "the solve stalled: no further step was acceptable; the best so far is kept");

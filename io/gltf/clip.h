@@ -21,6 +21,7 @@ namespace retarget::io {
 struct GltfSelect {
   std::string animation;
   std::string skin;
+  std::string figure = {};     // of several characters: by any of its names, or by number
   bool any_animation = false;  // of several, none of them selected, the first
   bool at_rest = false;        // the character alone, one frame, whatever animations there are
 };
@@ -49,6 +50,7 @@ struct GltfClip {
   std::vector<double> key_times;
   std::string animation;           // its name; empty for a character at rest
   std::vector<int> skins;          // the character's, indices in the file
+  bool is_one_of_several = false;  // skinned characters
   std::optional<JointMap> map;     // VRM and VRMA say which bone is which; absent bones are -1
   bool faces_minus_z = false;      // as VRM 0.x does; everything else should face +Z
   std::vector<std::string> notes;  // what was tolerated or left aside, one line each
@@ -82,6 +84,10 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
 // data in the file. Throws InputError where a matrix cannot be split up.
 std::string FormatGltf(const GltfClip& original, const RigMotion& motion, double fps = 0,
                        const std::string& animation_name = "retargeted");
+
+// The clip with some of its joints alone, `joints` in order and with all that carry them: what
+// FormatGltf writes moves only these.
+GltfClip CutGltf(const GltfClip& clip, const std::vector<int>& joints);
 
 // Radius of a capsule about each joint's bone (m): the upper quartile of the distances of the
 // joint's own vertices (those it has most weight of) from its bone. A quarter of the skin then lies

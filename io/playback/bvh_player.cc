@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 
@@ -105,7 +106,9 @@ class BvhPlayer {
       frames_.emplace_back();
       for (const Bone& bone : bones_) frames_.back().push_back(ReadBone(bone, &at));
     }
-    if (frames_.empty() || !(frame_time_ > 0)) throw InputError(file_.name + ": no frames");
+    const size_t rest = static_cast<size_t>(std::max(file_.rest_frames, 0));
+    if (frames_.size() <= rest || !(frame_time_ > 0)) throw InputError(file_.name + ": no frames");
+    frames_.erase(frames_.begin(), frames_.begin() + static_cast<long>(rest));
   }
 
   LocalTransform ReadBone(const Bone& bone, size_t* at) const {

@@ -20,6 +20,7 @@ struct PlayedFile {
   std::string folder;     // where the buffers are that a .gltf names
   std::string animation;  // glTF: the name of the one to play
   double fps = 120;       // Acclaim: which does not say
+  int rest_frames = 0;    // BVH: frames before the motion, such as a T-pose
 };
 
 // A joint by its name, the first of that name; of glTF by its node's index where that is given.
@@ -33,8 +34,8 @@ struct Played {
   std::vector<std::vector<Vec3>> position;  // [times][joints] in the file's units and axes
 };
 
-// Where `joints` stand at `times` (s from the first key, held beyond the last). Between keys
-// translations and scales are linear, rotations spherical-linear, as glTF has it. Throws
+// Where `joints` stand at `times` (s from the motion's first key, held beyond the last). Between
+// keys translations and scales are linear, rotations spherical-linear, as glTF has it. Throws
 // InputError, one line that begins with the file's name, where the file has no such joint or cannot
 // be played.
 Played Play(const PlayedFile& file, const std::vector<PlayedJoint>& joints,

@@ -8,6 +8,7 @@ namespace retarget::io {
 
 struct OptionWords {
   std::string units = "ClipOptions::units";
+  std::string stature = "ClipOptions::stature";
   std::string up = "ClipOptions::up";
   std::string skip_frames = "ClipOptions::skip_frames";
   std::string start = "ClipOptions::start";

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "io/recognition/joint_profiles.h"
+#include "io/recognition/joint_words.h"
+#include "io/recognition/limb_words.h"
 #include "io/recognition/loose_bones.h"
 #include "io/recognition/map_joints.h"
 #include "io/recognition/rig_check.h"
@@ -98,6 +100,16 @@ JointMap FindJoints(const RigMotion& motion, const Refusal& refusal, RigFacts* f
     }
     return match.map;
   }
+  const std::vector<JointWords> words = ReadJointWords(rig);
+  const NameMatch by_words = MatchWords(rig, words, SamplePoses(motion));
+  if (by_words.complete()) {
+    const std::string fault = ShapeFault(rig, SamplePoses(motion), by_words.map);
+    if (!fault.empty()) RefuseFigure(refusal, fault);
+    facts->confidence = by_words.share;
+    facts->notes.push_back(
+        "the joint names follow no known convention: joints were told by the words in them");
+    return by_words.map;
+  }
   ShapeMatch shape = MatchShape(rig, SamplePoses(motion));
   if (shape.map) {
     facts->confidence = 0;
@@ -144,6 +156,16 @@ void NoteFollowers(const RigMotion& motion, const OptionWords& words, RigFacts* 
     facts->notes.push_back(fmt::format("{} ({} keep: not)", list, words.ik_targets));
 }
 
+// What the first look has left open.
+void FillJoints(const RigMotion& motion, RigFacts* facts) {
+  std::string list;
+  for (const std::string& part :
+       FillOpenParts(motion.rig, ReadJointWords(motion.rig), SamplePoses(motion), &facts->map)) {
+    list += (list.empty() ? "" : ", ") + Printable(part);
+  }
+  if (!list.empty()) facts->notes.push_back("told by their place in the tree: " + list);
+}
+
 }  // namespace
 
 RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
@@ -152,9 +174,15 @@ RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
     throw InputError(file_name + ": no frames of any joint, expected a motion");
   }
   RigFacts facts;
-  facts.map = options.map ? *options.map : FindJoints(motion, {file_name, options.words}, &facts);
-  if (!options.map) TakeLooseFeet(motion, &facts);
+  if (options.map) {
+    facts.map = *options.map;
+  } else {
+    facts.map = FindJoints(motion, {file_name, options.words}, &facts);
+    FillJoints(motion, &facts);
+    TakeLooseFeet(motion, &facts);
+  }
   const RigMeasure figure(motion, facts.map);
+  RefuseLimbsWithoutLength(figure, file_name);
   FindUnit(FigureHeight(figure), options, file_name, &facts);
   FindUp(figure, options, file_name, &facts);
   CheckRig(figure, &facts);

@@ -26,6 +26,14 @@ std::vector<SegmentSpan> SpansOf(const Body& body, const std::vector<Vec3>& node
   return spans;
 }
 
+double DisplacementOf(const std::vector<Vec3>& before, const std::vector<Vec3>& after) {
+  double largest2 = 0;
+  for (size_t n = 0; n < before.size(); ++n) {
+    largest2 = std::max(largest2, (after[n] - before[n]).squaredNorm());
+  }
+  return std::sqrt(largest2);
+}
+
 }  // namespace
 
 GliJump LargestGliJump(const std::array<Body, 2>& body, const NodePositions& before,
@@ -62,14 +70,36 @@ GliJump LargestGliJump(const std::array<Body, 2>& body, const NodePositions& bef
   return largest;
 }
 
-double LargestDisplacement(const NodePositions& before, const NodePositions& after) {
-  double largest2 = 0;
-  for (int f = 0; f < 2; ++f) {
-    for (size_t n = 0; n < before[f].size(); ++n) {
-      largest2 = std::max(largest2, (after[f][n] - before[f][n]).squaredNorm());
+GliJump LargestGliJumpOnTheWay(const std::array<Body, 2>& body, const NodePositions& before,
+                               const NodePositions& after) {
+  return LargestGliJump(body, before, after,
+                        DisplacementOf(before[0], after[0]) + DisplacementOf(before[1], after[1]));
+}
+
+GliJump LargestGliJumpBetween(const std::array<Body, 2>& body, const std::array<Pose, 2>& from,
+                              const std::array<Pose, 2>& to) {
+  constexpr int kInstants = 4;
+  const auto nodes_at = [&](int k) {
+    NodePositions nodes;
+    for (int f = 0; f < 2; ++f) {
+      nodes[f] =
+          PoseBody(body[f], Interpolate(from[f], to[f], static_cast<double>(k) / kInstants)).node;
     }
+    return nodes;
+  };
+  GliJump largest;
+  NodePositions before = nodes_at(0);
+  for (int k = 1; k <= kInstants; ++k) {
+    NodePositions after = nodes_at(k);
+    const GliJump jump = LargestGliJumpOnTheWay(body, before, after);
+    if (jump.size > largest.size) largest = jump;
+    before = std::move(after);
   }
-  return std::sqrt(largest2);
+  return largest;
+}
+
+double LargestDisplacement(const NodePositions& before, const NodePositions& after) {
+  return std::max(DisplacementOf(before[0], after[0]), DisplacementOf(before[1], after[1]));
 }
 
 }  // namespace retarget

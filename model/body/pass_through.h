@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/body/body.h"
+#include "model/body/pose.h"
 #include "model/geometry/types.h"
 
 namespace retarget {
@@ -37,6 +38,17 @@ struct GliJump {
 // posture are left out; pass infinity for none.
 GliJump LargestGliJump(const std::array<Body, 2>& body, const NodePositions& before,
                        const NodePositions& after, double reach);
+
+// The same from one frame of a motion to the next, over all segments that can meet on the way: they
+// are no further apart than the fastest nodes of both figures move.
+GliJump LargestGliJumpOnTheWay(const std::array<Body, 2>& body, const NodePositions& before,
+                               const NodePositions& after);
+
+// Largest change of GLI between neighbouring instants, four to a frame, on the way from one frame
+// of a motion to the next (Interpolate). A limb goes through a limb where it is over
+// kPassThroughGli.
+GliJump LargestGliJumpBetween(const std::array<Body, 2>& body, const std::array<Pose, 2>& from,
+                              const std::array<Pose, 2>& to);
 
 // How far the fastest node moved (m).
 double LargestDisplacement(const NodePositions& before, const NodePositions& after);

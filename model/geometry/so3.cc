@@ -20,6 +20,16 @@ Vec3 LogSo3(const Quat& q) {
   return 2.0 * std::atan2(n, sign * q.w()) / n * v;
 }
 
+Vec3 LogSo3Near(const Quat& q, const Vec3& near) {
+  const Vec3 v = LogSo3(q);
+  const double angle = v.norm();
+  // Every other vector but the one beyond pi lies further out than kLargest.
+  constexpr double kLargest = 1.75 * kPi;
+  if (2 * kPi - angle > kLargest) return v;
+  const Vec3 other = (1 - 2 * kPi / angle) * v;
+  return (other - near).squaredNorm() < (v - near).squaredNorm() ? other : v;
+}
+
 Mat3 RightJacobian(const Vec3& v) {
   const double angle2 = v.squaredNorm();
   const Mat3 k = Skew(v);
@@ -34,7 +44,8 @@ Mat3 RightJacobianInverse(const Vec3& v) {
   const Mat3 k = Skew(v);
   if (angle2 < 1e-8) return Mat3::Identity() + 0.5 * k + k * k / 12.0;
   const double angle = std::sqrt(angle2);
-  const double c = 1.0 / angle2 - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+  const double half = 0.5 * angle;
+  const double c = 1.0 / angle2 - std::cos(half) / (2.0 * angle * std::sin(half));
   return Mat3::Identity() + 0.5 * k + c * k * k;
 }
 

@@ -20,6 +20,11 @@ Quat ExpSo3(const Vec3& v);
 // log: unit quaternion to the rotation vector of length at most pi (rad).
 Vec3 LogSo3(const Quat& q);
 
+// The rotation vector of `q` (rad) nearest to another one, so that a turn can be followed beyond
+// pi: one rotation has the vectors (angle + 2 pi k) axis. Those of 1.75 pi and more are left out,
+// since the exponential map is singular at 2 pi.
+Vec3 LogSo3Near(const Quat& q, const Vec3& near);
+
 // J_r(v): exp(v + dv) = exp(v) exp(J_r(v) dv) to first order. [3 x 3]
 Mat3 RightJacobian(const Vec3& v);
 

@@ -91,12 +91,27 @@ struct JointMap {
 struct RigFollower {
   int joint = -1, bone = -1;
 };
+// Calls visit(int* joint) for every joint of a map, absent ones included.
+template <typename Visit>
+void VisitJoints(JointMap* map, const Visit& visit) {
+  visit(&map->root);
+  for (int& joint : map->spine) visit(&joint);
+  for (int& joint : map->neck) visit(&joint);
+  visit(&map->head);
+  visit(&map->head_top);
+  for (JointMap::Side* s : {&map->left, &map->right}) {
+    for (int* joint : {&s->clavicle, &s->shoulder, &s->elbow, &s->wrist, &s->hand, &s->hip,
+                       &s->knee, &s->ankle, &s->toe}) {
+      visit(joint);
+    }
+  }
+}
 
 // What was recognised in a file.
 struct RigFacts {
   JointMap map;
   double metres_per_unit = 0.01;
-  std::string unit_name = "cm";             // "m", "cm", "in", "cmu", "mm" or the number
+  std::string unit_name = "cm";             // "m", "cm", "mm", "dm", "in", "cmu" or number
   char up = 'y';                            // 'y' or 'z'
   double stature = 0;                       // m
   std::vector<int> t_pose_frames;           // at the start of the clip

@@ -29,16 +29,23 @@ Pose EditCurve::Apply(const Pose& pose, double time) const {
   const std::vector<Vec3>& p1 = edit_[k];
   const std::vector<Vec3>& p2 = edit_[std::min(k + 1, last)];
   const std::vector<Vec3>& p3 = edit_[std::min(k + 2, last)];
-  const auto value = [&](size_t i) -> Vec3 {
-    const Vec3 m1 = 0.5 * (p2[i] - p0[i]), m2 = 0.5 * (p3[i] - p1[i]);
-    const double u2 = u * u, u3 = u2 * u;
-    return (2 * u3 - 3 * u2 + 1) * p1[i] + (u3 - 2 * u2 + u) * m1 + (3 * u2 - 2 * u3) * p2[i] +
+  const double u2 = u * u, u3 = u2 * u;
+  const auto value = [&](const Vec3& v0, const Vec3& v1, const Vec3& v2, const Vec3& v3) -> Vec3 {
+    const Vec3 m1 = 0.5 * (v2 - v0), m2 = 0.5 * (v3 - v1);
+    return (2 * u3 - 3 * u2 + 1) * v1 + (u3 - 2 * u2 + u) * m1 + (3 * u2 - 2 * u3) * v2 +
            (u3 - u2) * m2;
   };
   Pose out = pose;
-  out.root_position += value(0);
+  out.root_position += value(p0[0], p1[0], p2[0], p3[0]);
   for (size_t l = 0; l < pose.rotation.size(); ++l) {
-    out.rotation[l] = pose.rotation[l] * ExpSo3(value(l + 1));
+    // Counted from frame k: an edit of half a turn has two vectors, and from frame to frame the
+    // shorter may change from one to the other.
+    const Quat base = ExpSo3(p1[l + 1]);
+    const auto turn = [&](const std::vector<Vec3>& p) {
+      return LogSo3(base.conjugate() * ExpSo3(p[l + 1]));
+    };
+    out.rotation[l] =
+        pose.rotation[l] * base * ExpSo3(value(turn(p0), Vec3::Zero(), turn(p2), turn(p3)));
   }
   return out;
 }

@@ -3,13 +3,16 @@
 // model did not see, those frames are held back and the rest of the clip goes on.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "model/body/pass_through.h"
 #include "solver/optimizer/banded.h"
 #include "solver/optimizer/normal_equations.h"
 #include "solver/optimizer/stage.h"
+#include "solver/optimizer/stage_end.h"
 #include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
+#include "solver/problem/time_guard.h"
 
 namespace retarget::solver {
 namespace {
@@ -68,7 +71,7 @@ class BandedStage {
     Accept();
     double damping = settings.initial_damping;
     result_->stalled = false;
-    int flat = 0;      // iterations in a row that gained little
+    StageEnd end(context_.tolerance, cost);
     int rejected = 0;  // linear solves in a row without a sound step
     for (int iterations = 0; iterations < context_.iterations_left;) {
       if (context_.seconds_left > 0 && SecondsNow() - context_.started > context_.seconds_left) {
@@ -87,7 +90,6 @@ class BandedStage {
       rejected = 0;
       ++iterations;
       ++result_->iterations;
-      const double decrease = (cost - next_cost) / cost;
       const bool whole = step_length_.minCoeff() == 1;
       if (whole) {
         const double gain = (cost - next_cost) / std::max(PredictedDecrease(damping), 1e-300);
@@ -102,10 +104,8 @@ class BandedStage {
       cost = next_cost;
       Accept();
       if (!Report(cost, &iteration)) return SolveStatus::kInterrupted;
-      // A step that was held short says nothing about convergence.
       const bool free = step_length_.mean() > kFreeShare && damping < kFreeDamping;
-      flat = free && decrease < context_.tolerance ? flat + 1 : 0;
-      if (flat >= 2) return SolveStatus::kConverged;
+      if (end.Add(cost, iteration.step_m, free)) return SolveStatus::kConverged;
     }
     return SolveStatus::kIterationLimit;
   }
@@ -137,8 +137,9 @@ class BandedStage {
   }
 
   // Finds the share of the step that each frame can take: no node too far, no limb through a limb,
-  // and less cost in all. Frames that cannot take all of it are held back with their neighbours,
-  // evenly, and the rest of the clip goes on. False where no share will do.
+  // be it from the last iterate or from the frame before, and less cost in all. Frames that cannot
+  // take all of it are held back with their neighbours, evenly, and the rest of the clip goes on.
+  // False where no share will do.
   bool Backtrack(double cost, Unknowns* next, double* next_cost) {
     const double limit = problem_.settings().solve.step_limit_m;
     const int n = scene_.num_frames();
@@ -152,12 +153,15 @@ class BandedStage {
       }
       *next_cost = EvaluateTrial(*next);
       VecX factor = VecX::Ones(n);
-      bool sound = true;
       for (int t = 0; t < n; ++t) {
         if (displacement_[t] > limit) factor[t] = kWithinLimit * limit / displacement_[t];
         if (tunnelled_[t]) factor[t] = std::min(factor[t], kTunnelled);
-        sound = sound && factor[t] == 1;
       }
+      for (int t = 0; t + 1 < n; ++t) {
+        if (!trial_through_[t] || accepted_through_[t]) continue;
+        for (const int side : {t, t + 1}) factor[side] = std::min(factor[side], kTunnelled);
+      }
+      const bool sound = factor.minCoeff() == 1;
       if (sound) {
         if (*next_cost < cost) return true;
         // The frames that cost more than before hold the others back: shorten those.
@@ -190,15 +194,15 @@ class BandedStage {
       displacement_[t] = LargestDisplacement(accepted_[t], trial_[t]);
       tunnelled_[t] = LargestGliJump(scene_.body, accepted_[t], trial_[t], kGuardReach).size > jump;
     });
-    double sum = 0;
-    for (const double c : trial_cost_) sum += c;
-    return sum;
+    trial_through_ = GoesThrough(scene_, x, trial_, threads_);
+    return std::accumulate(trial_cost_.begin(), trial_cost_.end(), 0.0);
   }
 
   void Accept() {
     std::swap(accepted_, trial_);
     trial_.resize(accepted_.size());
     accepted_cost_ = trial_cost_;
+    accepted_through_ = trial_through_;
     std::swap(accepted_terms_, trial_terms_);
   }
 
@@ -229,10 +233,11 @@ class BandedStage {
   std::vector<NodePositions> accepted_, trial_;
   std::vector<std::vector<double>> accepted_terms_, trial_terms_;  // costs, per frame and term
   std::vector<double> accepted_cost_, trial_cost_;
-  std::vector<double> displacement_;  // of the last trial, per frame (m)
-  std::vector<char> tunnelled_;
-  VecX frame_damping_;  // factor of the damping, per frame
-  VecX step_length_;    // of the last step, per frame
+  std::vector<double> displacement_;                    // of the last trial, per frame (m)
+  std::vector<char> tunnelled_;                         // from the accepted iterate, per frame
+  std::vector<char> accepted_through_, trial_through_;  // on the way to the next frame
+  VecX frame_damping_;                                  // factor of the damping, per frame
+  VecX step_length_;                                    // of the last step, per frame
 };
 
 }  // namespace

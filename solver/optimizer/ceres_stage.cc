@@ -9,11 +9,14 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "model/body/pass_through.h"
 #include "solver/optimizer/stage.h"
+#include "solver/optimizer/stage_end.h"
 #include "solver/problem/clock.h"
 #include "solver/problem/parallel.h"
+#include "solver/problem/time_guard.h"
 
 namespace retarget::solver {
 namespace {
@@ -59,6 +62,7 @@ class FrameCache : public ceres::EvaluationCallback {
       if (guarding_) moved = std::max(moved, LargestDisplacement(accepted_[t], now));
       accepted_[t] = now;
     }
+    accepted_through_ = GoesThrough(scene_, unknowns_, accepted_, threads_);
     last_step_m_ = moved;
     guarding_ = true;
     sound_ = true;
@@ -67,13 +71,17 @@ class FrameCache : public ceres::EvaluationCallback {
   bool IsSound() const {
     const SolveSettings& settings = context_.problem->settings().solve;
     std::vector<char> bad(frames_.size(), 0);
+    std::vector<NodePositions> nodes(frames_.size());
     ParallelFor(scene_.num_frames(), threads_, [&](int t, int) {
-      const NodePositions now = {frames_[t].posed[0].node, frames_[t].posed[1].node};
+      nodes[t] = {frames_[t].posed[0].node, frames_[t].posed[1].node};
+      const NodePositions& now = nodes[t];
       const double moved = LargestDisplacement(accepted_[t], now);
       bad[t] = moved > settings.step_limit_m ||
                (moved > kStill && LargestGliJump(scene_.body, accepted_[t], now, kGuardReach).size >
                                       settings.gli_jump);
     });
+    const std::vector<char> through = GoesThrough(scene_, unknowns_, nodes, threads_);
+    for (size_t t = 0; t < through.size(); ++t) bad[t] |= through[t] && !accepted_through_[t];
     return std::count(bad.begin(), bad.end(), 0) == static_cast<long>(bad.size());
   }
 
@@ -83,6 +91,7 @@ class FrameCache : public ceres::EvaluationCallback {
   int threads_;
   std::vector<Frame> frames_;
   std::vector<NodePositions> accepted_;
+  std::vector<char> accepted_through_;  // on the way to the next frame
   bool guarding_ = false, sound_ = true, has_dexp_ = false;
   double last_step_m_ = 0;
 };
@@ -185,12 +194,14 @@ class LinearCost : public ceres::SizedCostFunction<kBlock, kBlock> {
   Vec3 weight_;
 };
 
-// w (x(t-1) - 2 x(t) + x(t+1)) for one block.
+// w (x(t-1) - 2 x(t) + x(t+1) + b) for one block.
 class SmoothCost : public ceres::SizedCostFunction<kBlock, kBlock, kBlock, kBlock> {
  public:
-  explicit SmoothCost(const Vec3& weight) : weight_(weight) {}
+  SmoothCost(const Vec3& weight, const Vec3& base) : weight_(weight), base_(base) {}
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    for (int k = 0; k < kBlock; ++k) residuals[k] = weight_[k] * (x[0][k] - 2 * x[1][k] + x[2][k]);
+    for (int k = 0; k < kBlock; ++k) {
+      residuals[k] = weight_[k] * (x[0][k] - 2 * x[1][k] + x[2][k] + base_[k]);
+    }
     if (!jacobians) return true;
     for (int p = 0; p < 3; ++p) {
       if (!jacobians[p]) continue;
@@ -201,7 +212,7 @@ class SmoothCost : public ceres::SizedCostFunction<kBlock, kBlock, kBlock, kBloc
   }
 
  private:
-  Vec3 weight_;
+  Vec3 weight_, base_;
 };
 
 class StageCallback : public ceres::IterationCallback {
@@ -233,12 +244,10 @@ class StageCallback : public ceres::IterationCallback {
       status = SolveStatus::kInterrupted;
       return ceres::SOLVER_ABORT;
     }
-    const double before = summary.cost + summary.cost_change;
-    // A step that the trust region holds short says nothing about convergence.
+    if (!end_) end_.emplace(context_.tolerance, summary.cost + summary.cost_change);
     const bool free = summary.trust_region_radius > kFreeRadius;
-    flat_ = free && summary.cost_change < context_.tolerance * before ? flat_ + 1 : 0;
-    if (flat_ >= 2) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-    return ceres::SOLVER_CONTINUE;
+    return end_->Add(summary.cost, iteration.step_m, free) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                           : ceres::SOLVER_CONTINUE;
   }
 
   SolveStatus status = SolveStatus::kConverged;
@@ -248,7 +257,7 @@ class StageCallback : public ceres::IterationCallback {
   const FrameCache& cache_;
   int threads_;
   SolveResult* result_;
-  int flat_ = 0;
+  std::optional<StageEnd> end_;
 };
 
 class CeresStage {
@@ -357,11 +366,14 @@ class CeresStage {
   }
 
   void AddSmoothness() {
-    const VecX& weight = context_.problem->smoothness().weight();
+    const Smoothness& smoothness = context_.problem->smoothness();
     for (int t = 1; t + 1 < scene_.num_frames(); ++t) {
+      const VecX base = smoothness.BaseDifference(t);
       for (int b = 0; b < scene_.num_coordinates() / kBlock; ++b) {
-        problem_.AddResidualBlock(new SmoothCost(weight.segment<kBlock>(kBlock * b)), nullptr,
-                                  BlockOf(t - 1, b), BlockOf(t, b), BlockOf(t + 1, b));
+        const int c = kBlock * b;
+        problem_.AddResidualBlock(
+            new SmoothCost(smoothness.weight().segment<kBlock>(c), base.segment<kBlock>(c)),
+            nullptr, BlockOf(t - 1, b), BlockOf(t, b), BlockOf(t + 1, b));
       }
     }
   }

@@ -86,11 +86,10 @@ class FrameSolver {
   }
 
   bool IsSound(const NodePositions& now) const {
-    const auto sound_from = [&](const NodePositions& from) {
-      return LargestGliJump(problem_.scene().body, from, now, options_.guard_reach).size <=
-             options_.gli_jump;
-    };
-    return sound_from(at_.node) && (!task_.also_from || sound_from(*task_.also_from));
+    const std::array<Body, 2>& body = problem_.scene().body;
+    return LargestGliJump(body, at_.node, now, options_.guard_reach).size <= options_.gli_jump &&
+           (!task_.also_from ||
+            LargestGliJumpOnTheWay(body, *task_.also_from, now).size <= options_.gli_jump);
   }
 
   NodePositions NodesNow() {

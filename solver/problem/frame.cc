@@ -11,7 +11,7 @@ void Frame::Set(const Scene& s, const Unknowns& unknowns, int frame, bool deriva
   anchor = &unknowns.anchor;
   for (int f = 0; f < 2; ++f) {
     const double* xf = x + s.FirstCoordinate(f);
-    EditedPose(s.source[f].frames[t], xf, &pose[f]);
+    EditedPose(s, f, t, unknowns.edit, &pose[f]);
     PoseBody(s.body[f], pose[f], &posed[f]);
     dexp[f].clear();
     if (!derivatives) continue;

@@ -10,12 +10,6 @@
 
 namespace retarget::solver {
 
-// A turn about the vertical through the root, and a horizontal shift.
-struct RootShift {
-  double yaw = 0;             // rad
-  Vec3 shift = Vec3::Zero();  // m
-};
-
 // Shifts of each figure's placed root, per frame, under which the two keep the template's distance
 // and headings but for what comes and goes within about a second, and for 10 cm and 0.25 rad, which
 // the limbs can bear. The rest is shared between the figures as they travel, so that one who stands
@@ -23,7 +17,8 @@ struct RootShift {
 // its partner, or where no tag ties the two.
 std::array<std::vector<RootShift>, 2> RootDriftCorrection(const Scene& scene);
 
-// The placed root of a figure at frame t with its shift.
-Pose ShiftedRoot(const Pose& source, const RootShift& shift);
+// How far a figure has turned from its place in the template, about the vertical and per frame
+// (rad), followed beyond pi; between -pi and pi at the frame that is laid into the template.
+std::vector<double> HeadingsOf(const Scene& scene, int figure);
 
 }  // namespace retarget::solver

@@ -1,5 +1,7 @@
 #include "solver/problem/root_targets.h"
 
+#include "solver/problem/root_drift.h"
+
 namespace retarget::solver {
 
 std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure) {
@@ -20,6 +22,16 @@ std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure) {
                        (partner_inverse * moved_rotation).normalized()});
   }
   return targets;
+}
+
+std::array<std::vector<RootShift>, 2> EditBase(const Scene& scene) {
+  std::array<std::vector<RootShift>, 2> base = RootDriftCorrection(scene);
+  for (int f = 0; f < 2; ++f) {
+    if (scene.root[f] == RootReference::kOwnClip) continue;
+    const std::vector<double> headings = HeadingsOf(scene, 1 - f);
+    for (size_t t = 0; t < headings.size(); ++t) base[f][t] = {headings[t], Vec3::Zero()};
+  }
+  return base;
 }
 
 }  // namespace retarget::solver

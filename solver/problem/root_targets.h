@@ -3,6 +3,7 @@
 //   X_partner,T^-1 X_T X_clip(t0)^-1 X_clip(t),  X in SE(3), t0 the template's frame
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "solver/problem/scene.h"
@@ -17,5 +18,10 @@ struct RelativeRoot {
 
 // Of all frames; empty for a figure that follows its own clip.
 std::vector<RelativeRoot> RelativeRootTargets(const Scene& scene, int figure);
+
+// Where the roots' edits are counted from (Scene::base), so that they stay small however far a
+// figure is turned: for figures with clips of their own, where RootDriftCorrection puts them; for a
+// follower, turned as its partner's clip turns.
+std::array<std::vector<RootShift>, 2> EditBase(const Scene& scene);
 
 }  // namespace retarget::solver

@@ -4,21 +4,38 @@
 
 namespace retarget::solver {
 
-void EditOf(const Pose& source, const Pose& pose, double* x) {
-  Eigen::Map<Vec3> translation(x);
-  translation = pose.root_position - source.root_position;
+void EditOf(const Scene& scene, int figure, int t, const Pose& pose, int beside, MatX* edit) {
+  const Pose& source = scene.source[figure].frames[t];
+  const RootShift base = scene.BaseOf(figure, t);
+  const int first = scene.FirstCoordinate(figure);
+  edit->col(t).segment<3>(first) = pose.root_position - source.root_position - base.shift;
   for (size_t l = 0; l < source.rotation.size(); ++l) {
-    Eigen::Map<Vec3> delta(x + 3 + 3 * l);
-    delta = LogSo3(source.rotation[l].conjugate() * pose.rotation[l]);
+    const long c = first + 3 + 3 * static_cast<long>(l);
+    const Quat from = l == 0 ? YawRotation(base.yaw) * source.rotation[0] : source.rotation[l];
+    const Vec3 near = beside == t ? Vec3::Zero() : Vec3(edit->col(beside).segment<3>(c));
+    edit->col(t).segment<3>(c) = LogSo3Near(from.conjugate() * pose.rotation[l], near);
   }
 }
 
-void EditedPose(const Pose& source, const double* x, Pose* pose) {
+void EditedPose(const Scene& scene, int figure, int t, const MatX& edit, Pose* pose) {
+  const Pose& source = scene.source[figure].frames[t];
+  const double* x = edit.col(t).data() + scene.FirstCoordinate(figure);
   pose->root_position = source.root_position + Eigen::Map<const Vec3>(x);
   pose->rotation.resize(source.rotation.size());
   for (size_t l = 0; l < source.rotation.size(); ++l) {
     pose->rotation[l] = source.rotation[l] * ExpSo3(Eigen::Map<const Vec3>(x + 3 + 3 * l));
   }
+  if (scene.base[figure].empty()) return;
+  const RootShift base = scene.BaseOf(figure, t);
+  pose->root_position += base.shift;
+  pose->rotation[0] = YawRotation(base.yaw) * pose->rotation[0];
+}
+
+Pose ShiftedRoot(const Pose& source, const RootShift& shift) {
+  Pose out = source;
+  out.root_position += shift.shift;
+  out.rotation[0] = YawRotation(shift.yaw) * source.rotation[0];
+  return out;
 }
 
 Unknowns UnknownsFromPoses(const Scene& scene, const std::array<Clip, 2>& poses) {
@@ -28,11 +45,14 @@ Unknowns UnknownsFromPoses(const Scene& scene, const std::array<Clip, 2>& poses)
   int anchor = 0;
   for (int f = 0; f < 2; ++f) {
     std::vector<PosedBody> posed(scene.num_frames());
-    for (int t = 0; t < scene.num_frames(); ++t) {
-      EditOf(scene.source[f].frames[t], poses[f].frames[t],
-             u.edit.col(t).data() + scene.FirstCoordinate(f));
+    const auto set = [&](int t, int beside) {
+      EditOf(scene, f, t, poses[f].frames[t], beside, &u.edit);
       PoseBody(scene.body[f], poses[f].frames[t], &posed[t]);
-    }
+    };
+    const int middle = scene.template_frame;
+    set(middle, middle);
+    for (int t = middle + 1; t < scene.num_frames(); ++t) set(t, t - 1);
+    for (int t = middle - 1; t >= 0; --t) set(t, t + 1);
     for (const Contact& contact : scene.contacts[f]) {
       Vec3 mean = Vec3::Zero();
       for (int t = contact.first; t <= contact.last; ++t) mean += posed[t].node[contact.node];
@@ -49,8 +69,7 @@ std::array<Clip, 2> EditedClips(const Scene& scene, const Unknowns& unknowns) {
     out[f].fps = scene.source[f].fps;
     out[f].frames.resize(scene.num_frames());
     for (int t = 0; t < scene.num_frames(); ++t) {
-      EditedPose(scene.source[f].frames[t], unknowns.edit.col(t).data() + scene.FirstCoordinate(f),
-                 &out[f].frames[t]);
+      EditedPose(scene, f, t, unknowns.edit, &out[f].frames[t]);
     }
   }
   return out;

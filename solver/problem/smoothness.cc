@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/geometry/so3.h"
+
 namespace retarget::solver {
 namespace {
 constexpr double kStencil[3] = {1, -2, 1};
@@ -24,6 +26,29 @@ Smoothness::Smoothness(const Scene& scene, const Settings& settings) {
     }
   }
   weight_ *= rate * rate;
+  const int n = scene.num_frames();
+  for (int f = 0; f < 2; ++f) {
+    if (scene.base[f].empty()) continue;
+    if (base_.size() == 0) base_.setZero(scene.num_coordinates(), n);
+    const int first = scene.FirstCoordinate(f);
+    for (int t = 1; t + 1 < n; ++t) {
+      const RootShift before = scene.BaseOf(f, t - 1), now = scene.BaseOf(f, t),
+                      after = scene.BaseOf(f, t + 1);
+      base_.col(t).segment<3>(first) = before.shift - 2 * now.shift + after.shift;
+      base_.col(t).segment<3>(first + 3) =
+          (before.yaw - 2 * now.yaw + after.yaw) *
+          (scene.source[f].frames[t].rotation[0].conjugate() * Vec3::UnitY());
+    }
+  }
+}
+
+double Smoothness::Difference(const MatX& edit, int t, int c) const {
+  const double own = edit(c, t - 1) - 2 * edit(c, t) + edit(c, t + 1);
+  return base_.size() == 0 ? own : own + base_(c, t);
+}
+
+VecX Smoothness::BaseDifference(int t) const {
+  return base_.size() == 0 ? VecX::Zero(weight_.size()) : VecX(base_.col(t));
 }
 
 double Smoothness::HalfSquares(const MatX& edit, int first, int last, bool root) const {
@@ -32,7 +57,7 @@ double Smoothness::HalfSquares(const MatX& edit, int first, int last, bool root)
   for (int t = std::max(first, 1); t < std::min(last, n - 1); ++t) {
     for (int c = 0; c < weight_.size(); ++c) {
       if (is_root_[static_cast<size_t>(c)] != root) continue;
-      const double r = weight_[c] * (edit(c, t - 1) - 2 * edit(c, t) + edit(c, t + 1));
+      const double r = weight_[c] * Difference(edit, t, c);
       sum += r * r;
     }
   }
@@ -44,7 +69,7 @@ double Smoothness::Largest(const MatX& edit, int t, bool root) const {
   double largest = 0;
   for (int c = 0; c < weight_.size(); ++c) {
     if (is_root_[static_cast<size_t>(c)] != root) continue;
-    const double r = weight_[c] * (edit(c, t - 1) - 2 * edit(c, t) + edit(c, t + 1));
+    const double r = weight_[c] * Difference(edit, t, c);
     largest = std::max(largest, std::abs(r));
   }
   return largest;
@@ -56,6 +81,8 @@ void Smoothness::AddGradient(const MatX& edit, int t, Eigen::Ref<VecX> g) const 
     const double own = kStencil[t - centre + 1];
     g.array() += own * weight_.array().square() *
                  (edit.col(centre - 1) - 2 * edit.col(centre) + edit.col(centre + 1)).array();
+    if (base_.size() == 0) continue;
+    g.array() += own * weight_.array().square() * base_.col(centre).array();
   }
 }
 

@@ -1,7 +1,9 @@
 // smoothness, root_smoothness: the edit changes evenly, so the capture's own detail stays.
-//   r = s_c (fps/30)^2 (x_c(t-1) - 2 x_c(t) + x_c(t+1))     (rad, m; per (1/30 s)^2)
-// for every coordinate c of the edit. Linear with the stencil (1, -2, 1): its normal equations are
-// constant and diagonal in every block, which the back ends use.
+//   r = s_c (fps/30)^2 (x_c(t-1) - 2 x_c(t) + x_c(t+1) + b_c(t))     (rad, m; per (1/30 s)^2)
+// for every coordinate c of the edit. b is the same second difference of the base that edits of the
+// roots are counted from (Scene::base), so that the whole edit is smooth and not its rest alone;
+// its turn is taken about the vertical in the axes of the placed root. Linear with the stencil (1,
+// -2, 1): its normal equations are constant and diagonal in every block, which the back ends use.
 // 3 frames, 1 body. YAML: weights.smoothness, weights.root_smoothness.
 #pragma once
 
@@ -21,6 +23,8 @@ class Smoothness {
   double HalfSquares(const MatX& edit, int first, int last, bool root) const;
   // Largest residual centred on frame t.
   double Largest(const MatX& edit, int t, bool root) const;
+  // b(t): what the base adds to the second difference centred on frame t. [coordinates]
+  VecX BaseDifference(int t) const;
   // Gradient of the cost by the coordinates of frame t is added to g. [coordinates]
   void AddGradient(const MatX& edit, int t, Eigen::Ref<VecX> g) const;
   // Coefficient of the normal equations between frames t and t + lag (lag 0, 1, 2), to be
@@ -28,7 +32,10 @@ class Smoothness {
   static double StencilProduct(int num_frames, int t, int lag);
 
  private:
+  double Difference(const MatX& edit, int t, int c) const;
+
   VecX weight_;
+  MatX base_;  // b: [coordinates x frames]; empty where it is 0
   std::vector<bool> is_root_;
 };
 

@@ -61,11 +61,11 @@ void ClassifyTags(const Scene& scene, SimulationResult* result) {
 }
 
 void ClassifyPassThroughs(const Scene& scene, SimulationResult* result) {
-  std::array<PosedBody, 2> before = PosedAt(scene, *result, 0);
+  const auto poses_at = [&](int t) -> std::array<Pose, 2> {
+    return {result->motion[0].frames[t], result->motion[1].frames[t]};
+  };
   for (int t = 1; t < scene.num_frames(); ++t) {
-    const std::array<PosedBody, 2> now = PosedAt(scene, *result, t);
-    const GliJump jump = LargestGliJump(scene.body, {before[0].node, before[1].node},
-                                        {now[0].node, now[1].node}, kGuardReach);
+    const GliJump jump = LargestGliJumpBetween(scene.body, poses_at(t - 1), poses_at(t));
     if (jump.size > kPassThroughGli) {
       Stop(result, SimulationStatus::kPassedThrough,
            scene.body[0].nodes[jump.node_a].name + " of a went through " +
@@ -73,7 +73,6 @@ void ClassifyPassThroughs(const Scene& scene, SimulationResult* result) {
            t);
       return;
     }
-    before = now;
   }
 }
 

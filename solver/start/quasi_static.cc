@@ -5,6 +5,7 @@
 #include "model/body/pass_through.h"
 #include "solver/optimizer/frame_solve.h"
 #include "solver/problem/parallel.h"
+#include "solver/problem/time_guard.h"
 
 namespace retarget::solver {
 namespace {
@@ -44,12 +45,17 @@ class Pass {
         SolveFrame(problem_, {.t = t, .free_anchors = StartedAnchors(t, -1)}, options, &x_).node;
   }
 
+  // Goes on from frame t as it is; contacts stay where they are.
+  void ContinueFrom(int t) {
+    last_ = NodesAt(t);
+    anchors_free_ = false;
+  }
+
   // Solves frame t from the edit of `previous`, the frame it follows.
   void SolveNext(int t, int previous) {
     x_.edit.col(t) = x_.edit.col(previous);
     // Where the capture itself goes through a limb, start from the pose of the frame before.
-    if (LargestGliJump(scene_.body, last_, NodesAt(t), options_.guard_reach).size >
-        options_.gli_jump) {
+    if (LargestGliJumpOnTheWay(scene_.body, last_, NodesAt(t)).size > options_.gli_jump) {
       KeepPose(previous, t);
     }
     const FrameTask task = {.t = t,
@@ -73,16 +79,15 @@ class Pass {
   void KeepPose(int previous, int t) {
     Pose pose;
     for (int f = 0; f < 2; ++f) {
-      const int first = scene_.FirstCoordinate(f);
-      const std::vector<Pose>& source = scene_.source[f].frames;
-      EditedPose(source[previous], x_.edit.col(previous).data() + first, &pose);
-      EditOf(source[t], pose, x_.edit.col(t).data() + first);
+      EditedPose(scene_, f, previous, x_.edit, &pose);
+      EditOf(scene_, f, t, pose, previous, &x_.edit);
     }
   }
 
   // Contacts that begin with frame t, in the pass's direction: their anchors are still free.
   std::vector<FreeAnchor> StartedAnchors(int t, int previous) const {
     std::vector<FreeAnchor> started;
+    if (!anchors_free_) return started;
     int anchor = 0;
     for (int f = 0; f < 2; ++f) {
       for (const Contact& c : scene_.contacts[f]) {
@@ -100,6 +105,7 @@ class Pass {
   FrameSolveOptions options_;
   Unknowns x_;
   NodePositions last_;  // of the frame before
+  bool anchors_free_ = true;
 };
 
 // Anchors go where their feet stand on average.
@@ -126,6 +132,30 @@ Unknowns QuasiStaticPass(const Problem& problem, const Unknowns& start) {
   out.edit.leftCols(middle) = backward.unknowns().edit.leftCols(middle);
   CentreAnchors(scene, &out);
   return out;
+}
+
+int CurePassThroughs(const Problem& problem, Unknowns* x) {
+  const Scene& scene = problem.scene();
+  const int n = scene.num_frames();
+  Pass pass(problem, *x);
+  int solved = 0;
+  for (const int direction : {1, -1}) {
+    const auto inside = [&](int t) { return t >= 0 && t < n; };
+    const auto goes_through = [&](int t) {
+      return GoesThroughAfter(scene, pass.unknowns(), std::min(t, t + direction));
+    };
+    for (int t = scene.template_frame; inside(t + direction); t += direction) {
+      if (!goes_through(t)) continue;
+      pass.ContinueFrom(t);
+      do {
+        t += direction;
+        pass.SolveNext(t, t - direction);
+        ++solved;
+      } while (inside(t + direction) && goes_through(t));
+    }
+  }
+  *x = pass.unknowns();
+  return solved;
 }
 
 }  // namespace retarget::solver

@@ -36,8 +36,13 @@ struct RigidMotion {
 };
 
 RigidMotion CarriedBy(const Scene& scene, int figure, int t) {
-  const Pose& from = scene.source[figure].frames[scene.template_frame];
-  const Pose& to = scene.source[figure].frames[t];
+  // Roots with clips of their own have been brought together: they differ by little.
+  const auto root = [&](int frame) {
+    const RootShift shift =
+        scene.root[figure] == RootReference::kOwnClip ? scene.BaseOf(figure, frame) : RootShift{};
+    return ShiftedRoot(scene.source[figure].frames[frame], shift);
+  };
+  const Pose from = root(scene.template_frame), to = root(t);
   // Heading only: a leaning carrier does not tip its partner over.
   const Quat turn = YawRotation(YawOf(to.rotation[0] * from.rotation[0].conjugate()));
   return {turn, to.root_position - turn * from.root_position};

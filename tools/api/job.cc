@@ -64,6 +64,9 @@ Job LoadJob(const Request& request) {
   if (request.show == Show::kCharacters && !is_gltf(job.clip[0]) && !is_gltf(job.clip[1])) {
     throw InputError("--show characters: neither clip is, or is put on, a glTF character");
   }
+  if (request.rest == Rest::kTPose && RestFramesOf(job, 0) + RestFramesOf(job, 1) == 0) {
+    throw InputError("--rest t-pose: neither clip is, or is put on, a BVH file");
+  }
   const int available = static_cast<int>(std::floor(common * request.fps + 1e-3)) + 1;
   job.frames = CheckedFrames(request.frames, available);
   for (int f = 0; f < 2; ++f) {
@@ -82,6 +85,10 @@ Job LoadJob(const Request& request) {
   return job;
 }
 
+int RestFramesOf(const Job& job, int f) {
+  return job.request.rest == Rest::kTPose && job.clip[f].file.format == "BVH" ? 1 : 0;
+}
+
 std::vector<std::string> RecognitionNotes(const Job& job) {
   std::vector<std::string> notes;
   for (int f = 0; f < 2; ++f) {
@@ -95,6 +102,11 @@ std::vector<std::string> RecognitionNotes(const Job& job) {
                                   clip.skin_radii ? ", capsules as wide as its skin" : ""));
     }
     for (const std::string& note : facts.notes) notes.push_back("  note: " + note);
+    if (job.request.rest == Rest::kTPose) {
+      notes.push_back(RestFramesOf(job, f) > 0
+                          ? "  written with a T-pose as frame 0, the motion from frame 1 on"
+                          : "  --rest t-pose: no BVH, written with its own rest pose");
+    }
   }
   return notes;
 }

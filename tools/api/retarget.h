@@ -30,6 +30,10 @@ struct FrameRange {
 /// What the figures of scene.glb look like: capsules, or the clips' own glTF characters.
 enum class Show { kFigures, kCharacters };
 
+/// How the motion on a BVH clip's own rig begins: as it is, or with a T-pose before its first
+/// frame, which tools that retarget by a rest pose take from there.
+enum class Rest { kKeep, kTPose };
+
 /// What is asked of a run.
 struct Request {
   /// Figure a and figure b: a path, or bytes with a name.
@@ -47,6 +51,7 @@ struct Request {
   Show show = Show::kFigures;
   /// Whether report.html is made (a few MB).
   bool page = true;
+  Rest rest = Rest::kKeep;
 };
 
 /// How a run ended.

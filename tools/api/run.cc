@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "io/settings_file.h"
+#include "model/rig/t_pose_frame.h"
 #include "model/rig/write_back.h"
 #include "tools/api/job.h"
 #include "tools/api/run_report.h"
@@ -27,9 +28,16 @@ WrittenRig WriteRig(const Job& job, const solver::RetargetResult& result, int f,
       clip.file.motion, *clip.binding, start,
       [&](const Pose& pose) { return solver::Placed(pose, placement); }, result.scene.source[f],
       result.solved[f]);
+  RigMotion written = *motion;
+  const int rest_frames = RestFramesOf(job, f);
+  if (rest_frames > 0) {
+    written.frames.insert(written.frames.begin(),
+                          TPoseFrame(clip.file.motion.rig, *clip.binding,
+                                     result.solved[f].frames.front().root_position));
+  }
   api::WrittenRig out;
   out.files =
-      io::FormatClipFile(clip.file, *motion, report::kFigure[f], clip.binding->stature_ratio());
+      io::FormatClipFile(clip.file, written, report::kFigure[f], clip.binding->stature_ratio());
   for (int n = 0; n < job.input.body[f].num_nodes(); ++n) {
     const int joint = clip.binding->JointAtNode(n);
     if (joint >= 0) out.joints.push_back({n, joint});
@@ -38,8 +46,10 @@ WrittenRig WriteRig(const Job& job, const solver::RetargetResult& result, int f,
   for (const report::NodeJoint& pair : out.joints) {
     played.push_back({pair.node, io::JointInFile(clip.file, pair.joint)});
   }
-  out.error_m = report::WriteBackError(io::PlayedFileOf(clip.file, out.files),
-                                       clip.facts.metres_per_unit, clip.facts.up, played, scene, f);
+  io::PlayedFile file = io::PlayedFileOf(clip.file, out.files);
+  file.rest_frames = rest_frames;
+  out.error_m =
+      report::WriteBackError(file, clip.facts.metres_per_unit, clip.facts.up, played, scene, f);
   return out;
 }
 

@@ -118,7 +118,9 @@ report::Json WriteBackJson(const RunFacts& run, int f) {
   if (file.format == "glTF") {
     written["animation"] = io::kAnimationName;
     if (!file.select.skin.empty()) written["skin"] = file.select.skin;
+    if (!file.select.figure.empty()) written["figure"] = file.select.figure;
   }
+  if (const int rest_frames = RestFramesOf(run.job, f)) written["rest_frames"] = rest_frames;
   for (const report::NodeJoint& pair : run.rig[f].joints) {
     written["joints"][run.job.input.body[f].nodes[pair.node].name] =
         run.job.clip[f].file.motion.rig.joints[pair.joint].name;

@@ -17,7 +17,12 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
   clip->option = figure;
   clip->words = ProgramWords();
   app->add_option("--units" + suffix, clip->units,
-                  "cm, m, mm, in, cmu or metres per unit (default: guess)")
+                  "cm, m, mm, dm, in, cmu or metres per unit (default: guess)")
+      ->group(group);
+  app->add_option("--stature" + suffix, clip->stature,
+                  solve ? "the motion on a body of this height (m); settles an unknown unit"
+                        : "height of the figure (m): settles an unknown unit")
+      ->check(CLI::Range(0.5, 3.0))
       ->group(group);
   app->add_option("--up" + suffix, clip->up, "up axis (default: from the motion)")
       ->check(CLI::IsMember({"y", "z"}))
@@ -50,9 +55,6 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
       ->group(group);
   app->add_option("--start" + suffix, clip->start, "seconds into the clip")
       ->check(CLI::NonNegativeNumber)
-      ->group(group);
-  app->add_option("--stature" + suffix, clip->stature, "the motion on a body of this height (m)")
-      ->check(CLI::Range(0.5, 3.0))
       ->group(group);
 }
 
@@ -100,7 +102,8 @@ void CommandLine::AddScene(CLI::App* app) {
   RetargetOptions& o = retarget;
   app->add_option(
       "--clip-a", o.clip[0].path,
-      "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");
+      "first clip: BVH (pair.bvh#figure=1), glTF (hero.glb#animation=Walk,skin=1), VRM, VRMA, or "
+      "SKELETON.asf:CLIP.amc");
   app->add_option("--clip-b", o.clip[1].path, "second clip");
   app->add_option("--template", o.template_path, "template posture (YAML)");
   app->add_option("--config", o.config_path, "weights and settings (YAML; see `retarget config`)");
@@ -109,6 +112,9 @@ void CommandLine::AddScene(CLI::App* app) {
   app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
   app->add_option("--show", o.show, "scene.glb shows capsule figures, or the glTF characters")
       ->check(CLI::IsMember({"figures", "characters"}))
+      ->capture_default_str();
+  app->add_option("--rest", o.rest, "BVH as it begins, or with a T-pose before its first frame")
+      ->check(CLI::IsMember({"keep", "t-pose"}))
       ->capture_default_str();
   app->add_option("--fps", o.fps, "output frame rate")
       ->check(CLI::Range(1.0, 1000.0))

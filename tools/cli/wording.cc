@@ -7,6 +7,7 @@ namespace retarget::cli {
 
 io::OptionWords ProgramWords() {
   return {.units = "--units",
+          .stature = "--stature",
           .up = "--up",
           .skip_frames = "--skip-frames",
           .start = "--start",

@@ -18,14 +18,15 @@ void RootTracking::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   }
 }
 
-bool RootTracking::KeepsToClip(int figure, int t) const {
-  const RootShift& shift = meeting_[figure][t];
-  return relative_[figure].empty() && shift.yaw == 0 && shift.shift.isZero(0);
+bool RootTracking::EditIsError(const Frame& frame, int figure) const {
+  const RootShift& shift = meeting_[figure][frame.t];
+  const RootShift base = frame.scene->BaseOf(figure, frame.t);
+  return relative_[figure].empty() && shift.yaw == base.yaw && shift.shift == base.shift;
 }
 
 int RootTracking::row_slots(const Frame& frame) const {
   int rows = 0;
-  for (int f = 0; f < 2; ++f) rows += KeepsToClip(f, frame.t) ? 0 : 6;
+  for (int f = 0; f < 2; ++f) rows += EditIsError(frame, f) ? 0 : 6;
   return rows;
 }
 
@@ -33,7 +34,7 @@ void RootTracking::EvaluateLeader(const Frame& frame, int figure, Rows* rows) co
   const RootShift& shift = meeting_[figure][frame.t];
   const Pose& source = frame.scene->source[figure].frames[frame.t];
   const int first = frame.scene->FirstCoordinate(figure);
-  if (KeepsToClip(figure, frame.t)) {
+  if (EditIsError(frame, figure)) {
     for (int c = first; c < first + 6; ++c) rows->AddCoordinate(c, frame.x[c], 1);
     return;
   }
@@ -67,7 +68,9 @@ void RootTracking::EvaluateFollower(const Frame& frame, int figure, Rows* rows) 
     rows->AddPoint(row, partner, 0, p, -g);
   }
   const Mat3 difference = target_rotation.transpose() * frame.posed[figure].rotation[0];
-  const Vec3 angle = LogSo3(Quat(difference));
+  // The base turns as the target does, by the partner's clip: the edit tells on which side of pi.
+  const Vec3 edit = Eigen::Map<const Vec3>(frame.x + frame.scene->FirstCoordinate(figure) + 3);
+  const Vec3 angle = LogSo3Near(Quat(difference), edit);
   // log(D exp(w)) = log D + J_r^-1 w, w = R^T (d omega_self - d omega_partner).
   const Mat3 jacobian = RightJacobianInverse(angle) * frame.posed[figure].rotation[0].transpose();
   for (int k = 0; k < 3; ++k) {

@@ -26,8 +26,8 @@ class RootTracking : public Term {
   void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
 
  private:
-  // The target is the placed clip itself, so that the edit is the error: coordinate rows.
-  bool KeepsToClip(int figure, int t) const;
+  // The target is the base that edits are counted from: coordinate rows.
+  bool EditIsError(const Frame& frame, int figure) const;
   void EvaluateLeader(const Frame& frame, int figure, Rows* rows) const;
   void EvaluateFollower(const Frame& frame, int figure, Rows* rows) const;
   std::array<std::vector<RelativeRoot>, 2> relative_;

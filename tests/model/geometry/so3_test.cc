@@ -90,6 +90,31 @@ TEST(So3, LogIsNeverLongerThanHalfATurn) {
   EXPECT_NEAR(LogSo3(Quat(0, 0, 1, 0)).norm(), kPi, 1e-15);
 }
 
+TEST(So3, NearLogarithmFollowsATurnBeyondPi) {
+  for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(0.6, 0, -0.8), Vec3(2, -1, 2).normalized().eval()}) {
+    Vec3 last = Vec3::Zero();
+    for (int k = 0; k <= 100; ++k) {
+      const double angle = 1.7 * kPi * k / 100;
+      const Quat q = ExpSo3(angle * axis);
+      const Quat minus(-q.w(), -q.x(), -q.y(), -q.z());
+      for (const Quat& same : {q, minus}) {
+        EXPECT_LT((LogSo3Near(same, last) - angle * axis).norm(), 1e-12) << angle;
+      }
+      EXPECT_LT((LogSo3Near(q, Vec3::Zero()) - LogSo3(q)).norm(), 1e-12) << "the shortest";
+      last = angle * axis;
+    }
+    // Further round it starts again, before the exponential map becomes singular.
+    EXPECT_NEAR(LogSo3Near(ExpSo3(1.8 * kPi * axis), last).norm(), 0.2 * kPi, 1e-12);
+  }
+}
+
+TEST(So3, RightJacobianInverseBeyondPi) {
+  for (const double angle : {kPi - 1e-9, kPi, kPi + 1e-9, 1.3 * kPi, 1.7 * kPi}) {
+    const Vec3 v = angle * Vec3(2, -1, 2).normalized();
+    EXPECT_LT((RightJacobianInverse(v) * RightJacobian(v) - Mat3::Identity()).norm(), 1e-12);
+  }
+}
+
 TEST(So3, RightJacobianIsTheDerivativeOfTheExponential) {
   Random random(4);
   const double h = 1e-5;

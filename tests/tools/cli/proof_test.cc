@@ -103,21 +103,22 @@ TEST_F(ProofCommands, ACertificateHoldsUntilItIsTouched) {
   ASSERT_NE(at, std::string::npos) << text;
   text.replace(at, 8, "gli: 1.5");
   std::ofstream(config) << text;
-  EXPECT_TRUE(Has(RunProgram(scratch_, "certificate check " + run_).out, "tangle 1: not confirmed"));
+  EXPECT_TRUE(
+      Has(RunProgram(scratch_, "certificate check " + run_).out, "tangle 1: not confirmed"));
 }
 
 TEST_F(ProofCommands, ScenesOfOtherProgramsAreProvedAgainstATemplate) {
   const std::string with = " --template " + kHold + "/template.yaml";
-  for (const std::string& scene :
-       {"--scene " + run_ + "/scene.glb", "--scene " + run_ + "/a.bvh --scene " + run_ + "/b.bvh"}) {
+  for (const std::string& scene : {"--scene " + run_ + "/scene.glb",
+                                   "--scene " + run_ + "/a.bvh --scene " + run_ + "/b.bvh"}) {
     const Outcome verify = RunProgram(scratch_, "verify " + scene + with);
     EXPECT_EQ(verify.code, 0) << verify.out << verify.err;
     EXPECT_TRUE(Has(verify.out, "proved for all t")) << verify.out;
     EXPECT_TRUE(Has(verify.err, "planted feet are not judged")) << verify.err;
   }
   // The clips as they were captured, each alone, are no hug.
-  const Outcome apart = RunProgram(
-      scratch_, "verify --scene " + kHold + "/a.bvh --scene " + kHold + "/b.bvh" + with);
+  const Outcome apart =
+      RunProgram(scratch_, "verify --scene " + kHold + "/a.bvh --scene " + kHold + "/b.bvh" + with);
   EXPECT_EQ(apart.code, 3) << apart.err;
   EXPECT_TRUE(Has(apart.out, "not proved: ")) << apart.out;
 

@@ -1,0 +1,205 @@
+#include "solver/attempts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "solver/metrics/metrics.h"
+#include "solver/metrics/requirements.h"
+#include "solver/problem/clock.h"
+#include "solver/start/quasi_static.h"
+#include "solver/start/start.h"
+
+namespace retarget::solver {
+namespace {
+
+// A solve, and what it shows.
+struct Attempt {
+  SolveResult solve;
+  Metrics metrics;
+  int missed = 0;                  // requirements
+  std::vector<std::string> worse;  // than the baseline in these
+};
+
+bool Better(const Attempt& a, const Attempt& b) {
+  const auto rank = [](const Attempt& x) {
+    return std::tuple(x.worse.size(), x.metrics.pass_throughs.size(), x.missed, x.solve.cost);
+  };
+  return rank(a) < rank(b);
+}
+
+double DeepestOf(const Metrics& m) { return std::max(m.penetration_m, m.penetration_between_m); }
+
+double SmallestOf(const TangleMetrics& m) {
+  return std::min(m.min_signed_gli, m.min_signed_gli_between);
+}
+
+std::string Listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (size_t k = 0; k < names.size(); ++k) {
+    text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
+  }
+  return text;
+}
+
+class Attempts {
+ public:
+  Attempts(const Problem& problem, const Progress& progress, RetargetResult* result)
+      : problem_(problem),
+        scene_(problem.scene()),
+        progress_(progress),
+        result_(result),
+        subject_(MetricsContextOf(scene_)) {}
+
+  void Run() {
+    StartChoice& choice = result_->start;
+    choice.requested = problem_.settings().solve.start;
+    const SimulationResult& simulation = result_->simulation;
+    const bool usable = simulation.status == SimulationStatus::kCompleted;
+    const bool try_simulated = choice.requested != Start::kTemplate && usable;
+    const bool try_template = choice.requested != Start::kSimulated || !usable;
+    choice.reason = choice.requested == Start::kTemplate || usable
+                        ? "as asked for"
+                        : "the simulation cannot be a start: " + simulation.message;
+    if (try_simulated) Take(Start::kSimulated, From(Start::kSimulated));
+    if (try_template && !interrupted_) {
+      Attempt attempt = From(Start::kTemplate);
+      if (try_simulated) choice.reason = "the cheaper of both";
+      if (!try_simulated || attempt.solve.cost < best_.solve.cost) {
+        Take(Start::kTemplate, std::move(attempt));
+      }
+    }
+    if (!best_.worse.empty()) TryOthers();
+    best_.solve.seconds = seconds_;  // all were needed
+    if (interrupted_) best_.solve.status = SolveStatus::kInterrupted;
+    result_->solve = std::move(best_.solve);
+  }
+
+ private:
+  void Take(Start start, Attempt attempt) {
+    result_->start.used = start;
+    best_ = std::move(attempt);
+  }
+
+  // The other starts, while the result is worse than the baseline.
+  void TryOthers() {
+    const auto attempt = [&](Start start, const char* name, const auto& solve) {
+      if (!MayGoOn() || best_.worse.empty()) return;
+      const std::vector<std::string> worse = best_.worse;
+      Attempt other = solve();
+      const bool better = Better(other, best_);
+      result_->warnings.push_back("the solve was worse than the simulated baseline in " +
+                                  Listed(worse) + ": the clip was solved again from " + name +
+                                  (better ? ", which is kept" : ", which is no better"));
+      if (!better) return;
+      result_->start.reason = "the first solve was worse than the baseline";
+      Take(start, std::move(other));
+    };
+    if (!result_->start.template_cost) {
+      attempt(Start::kTemplate, "the template", [&] { return From(Start::kTemplate); });
+    }
+    const bool whole = result_->simulation.frames_simulated == scene_.num_frames();
+    if (whole && !result_->start.simulated_cost) {
+      attempt(Start::kSimulated, "the simulated motion",
+              [&] { return Solve(UnknownsFromPoses(scene_, result_->simulation.motion), {1}); });
+    }
+    if (best_.worse.empty() || interrupted_) return;
+    result_->warnings.push_back("the result is worse than the simulated baseline in " +
+                                Listed(best_.worse));
+  }
+
+  // Solves from a start, and again where that shows what steps cannot mend.
+  Attempt From(Start start) {
+    const double started = SecondsNow();
+    const Unknowns guess = start == Start::kSimulated
+                               ? UnknownsFromPoses(scene_, result_->simulation.motion)
+                               : TemplateStart(problem_);
+    result_->start_seconds += SecondsNow() - started;
+    const std::vector<double>& stages = problem_.settings().solve.stages;
+    Attempt best = Cured(Solve(guess, stages));
+    if (best.missed > 0 && stages.size() > 1 && MayGoOn()) {
+      // While contacts were weak a limb may have come to lie on the wrong side, and the guard lets
+      // it not back through: full contacts from the start keep it where it was.
+      Attempt full = Cured(Solve(guess, {1}));
+      if (Better(full, best)) best = std::move(full);
+    }
+    (start == Start::kSimulated ? result_->start.simulated_cost : result_->start.template_cost) =
+        best.solve.cost;
+    return best;
+  }
+
+  // The same without pass-throughs, as far as that can be.
+  Attempt Cured(Attempt attempt) {
+    if (attempt.metrics.pass_throughs.empty() || !MayGoOn()) return attempt;
+    Unknowns x = attempt.solve.unknowns;
+    const int frames = CurePassThroughs(problem_, &x);
+    if (frames == 0) return attempt;
+    Attempt cured = Solve(x, {1});
+    if (!Better(cured, attempt)) return attempt;
+    result_->warnings.push_back(
+        "limbs went through limbs after frame " +
+        std::to_string(attempt.metrics.pass_throughs[0].frame) + ": " + std::to_string(frames) +
+        " frames were solved again from the side of the template, and the clip once more");
+    return cured;
+  }
+
+  Attempt Solve(const Unknowns& start, const std::vector<double>& stages) {
+    Attempt attempt;
+    CheckStages(stages);
+    attempt.solve = SolveSpacetime(problem_, start, stages, progress_);
+    seconds_ += attempt.solve.seconds;
+    interrupted_ = attempt.solve.status == SolveStatus::kInterrupted;
+    if (!MayGoOn()) return attempt;
+    attempt.metrics = Measured(EditedClips(scene_, attempt.solve.unknowns));
+    const std::vector<RequirementCheck> checks =
+        CheckRequirements(subject_, attempt.metrics, problem_.settings().requirements);
+    attempt.missed = static_cast<int>(std::count_if(
+        checks.begin(), checks.end(), [](const RequirementCheck& c) { return !c.met; }));
+    if (attempt.missed > 0) attempt.worse = WorseIn(attempt.metrics);
+    return attempt;
+  }
+
+  // Names of what a motion that misses a requirement does worse than the baseline.
+  std::vector<std::string> WorseIn(const Metrics& m) {
+    if (!baseline_) baseline_ = Measured(result_->simulation.motion);
+    const Requirements& required = problem_.settings().requirements;
+    std::vector<std::string> worse;
+    for (size_t k = 0; k < m.tangles.size(); ++k) {
+      const double enough = std::min(required.gli, SmallestOf(baseline_->tangles[k]));
+      if (SmallestOf(m.tangles[k]) < enough) worse.push_back("tag " + std::to_string(k + 1));
+    }
+    if (static_cast<int>(m.pass_throughs.size()) >
+        std::max(required.pass_throughs, static_cast<int>(baseline_->pass_throughs.size()))) {
+      worse.push_back("pass-throughs");
+    }
+    if (DeepestOf(m) > std::max(required.penetration_m, DeepestOf(*baseline_))) {
+      worse.push_back("penetration");
+    }
+    return worse;
+  }
+
+  Metrics Measured(const std::array<Clip, 2>& clips) const {
+    return Measure(subject_, ViewOf(scene_.body, clips), ViewOf(scene_.body, scene_.source));
+  }
+
+  bool MayGoOn() const { return !interrupted_ && problem_.settings().solve.max_seconds <= 0; }
+
+  const Problem& problem_;
+  const Scene& scene_;
+  const Progress& progress_;
+  RetargetResult* result_;
+  MetricsContext subject_;
+  std::optional<Metrics> baseline_;
+  Attempt best_;
+  double seconds_ = 0;
+  bool interrupted_ = false;
+};
+
+}  // namespace
+
+void SolveInAttempts(const Problem& problem, const Progress& progress, RetargetResult* result) {
+  Attempts(problem, progress, result).Run();
+}
+
+}  // namespace retarget::solver
