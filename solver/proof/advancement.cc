@@ -280,7 +280,10 @@ class Advancer {
       }
       case Kind::kSegmentLength:
         return Length(i);
-      default:  // of frames alone
+      case Kind::kPenetrationOver1cm:
+      case Kind::kFootTravel:
+      case Kind::kFootAcceleration:
+      case Kind::kWriteBack:
         break;
     }
     return {0, 2};
