@@ -19,7 +19,7 @@ void JudgeByProof(const Proof& proof, std::vector<RequirementCheck>* checks) {
         std::find_if(proof.statements.begin(), proof.statements.end(), [&](const Statement& s) {
           return s.kind == check.kind && s.item == check.item && s.figure == check.figure;
         });
-    if (statement == proof.statements.end()) continue;
+    if (statement == proof.statements.end() || !check.judged()) continue;
     check.met = statement->proved;
     if (statement->proved) check.bound = statement->bound;
     // Samples see limbs that pass each other fast as a pass-through; the proof knows better.

@@ -217,10 +217,26 @@ void CommandLine::AddTools(CLI::App* app) {
 void CommandLine::AddProof(CLI::App* app) {
   CLI::App* verify = app->add_subcommand(
       "verify", "recompute all metrics from a run's files, and prove the motion for all t");
-  verify->add_option("folder", folder, "what --out was")->required();
+  CLI::Option* of_run = verify->add_option("folder", folder, "what --out was");
+  verify
+      ->add_option("--scene", verify_scene.scene,
+                   "instead of a run: a scene of any program, one file or one per figure")
+      ->excludes(of_run);
+  verify->add_option("--template", verify_scene.template_path, "that --scene is proved against");
+  AddSettings(verify, &verify_scene.settings);
+  for (int f = 0; f < 2; ++f) {
+    AddClipOptions(verify, &verify_scene.clip[f], f == 0 ? "a" : "b", false);
+  }
   verify->add_flag("--samples", samples, "judge by frames and instants between them, no proof");
   verify->add_flag("--json", json);
-  verify->callback([this] { code = RunVerify(folder, samples, json); });
+  verify->callback([this] {
+    if (!verify_scene.scene.empty()) {
+      code = RunVerifyScene(verify_scene, json);
+      return;
+    }
+    if (folder.empty()) throw InputError("verify: name a run's folder, or --scene and --template");
+    code = RunVerify(folder, samples, json);
+  });
 
   CLI::App* certificate =
       app->add_subcommand("certificate", "check the proof that a run wrote, or compare two");

@@ -33,6 +33,7 @@ struct CommandLine {
   PoseCommandOptions pose;
   GalleryOptions gallery;
   StudioOptions studio;
+  VerifySceneOptions verify_scene;
   io::ClipOptions map_clip;
   SettingsOptions settings;
   std::string folder, other_folder, file, check, picture;

@@ -59,6 +59,14 @@ int RunSimulate(const RetargetOptions& options);
 
 // Of a run's folder: every metric again, and the proof; `samples` judges by instants alone.
 int RunVerify(const std::string& folder, bool samples, bool json);
+// Two figures of any program against a template.
+struct VerifySceneOptions {
+  std::vector<std::string> scene;  // one file with both figures, or one for each
+  std::string template_path;
+  std::array<io::ClipOptions, 2> clip;  // what is read of each figure; without paths
+  SettingsOptions settings;
+};
+int RunVerifyScene(const VerifySceneOptions& options, bool json);
 // The certificate of a run's folder, by the second checker; what differs between two.
 int RunCertificateCheck(const std::string& folder, bool json);
 int RunCertificateDiff(const std::array<std::string, 2>& folders);

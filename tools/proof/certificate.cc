@@ -17,8 +17,6 @@ namespace {
 
 using Kind = solver::RequirementKind;
 
-Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 // Away from what is claimed, so that rounding claims nothing.
 std::string Outward(double bound, Kind kind) {
   if (!std::isfinite(bound)) return "null";
@@ -26,23 +24,6 @@ std::string Outward(double bound, Kind kind) {
   const double rounded =
       kind == Kind::kTangle ? std::floor(bound * grain) / grain : std::ceil(bound * grain) / grain;
   return fmt::format("{:.6g}", rounded);
-}
-
-Json StatementsJson(const solver::Proof& proof) {
-  Json out = Json::array();
-  for (const solver::Statement& s : proof.statements) {
-    Json one = {{"name", NameOf(s)}};
-    solver::RequirementCheck check{.kind = s.kind, .item = s.item, .figure = s.figure};
-    report::AddPlace(check, &one);
-    one.erase("frame");
-    one["unit"] = report::UnitOf(s.kind);
-    one["limit"] = s.limit;
-    one["proved"] = s.proved;
-    one["bound"] = s.proved ? NumberOrNull(s.bound) : Json(nullptr);
-    one["value"] = s.value;
-    out.push_back(one);
-  }
-  return out;
 }
 
 Json TopologyJson(const solver::Proof& proof, const solver::MetricsContext& subject, double begin,

@@ -36,6 +36,8 @@ std::string LimbsText(const solver::Statement& s, const solver::Finding& finding
   return Names(l, body);
 }
 
+Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
 }  // namespace
 
 std::array<std::vector<int>, 2> NodesOf(const io::SceneMotion& scene,
@@ -84,6 +86,23 @@ std::string ProofSentence(const solver::Proof& proof, const solver::MetricsConte
                        work);
   std::string out = "not proved: " + FindingSentence(proof, proof.findings[0], subject);
   if (proof.findings.size() > 1) out += fmt::format(" (the first of {})", proof.findings.size());
+  return out;
+}
+
+Json StatementsJson(const solver::Proof& proof) {
+  Json out = Json::array();
+  for (const solver::Statement& s : proof.statements) {
+    Json one = {{"name", NameOf(s)}};
+    solver::RequirementCheck check{.kind = s.kind, .item = s.item, .figure = s.figure};
+    report::AddPlace(check, &one);
+    one.erase("frame");
+    one["unit"] = report::UnitOf(s.kind);
+    one["limit"] = s.limit;
+    one["proved"] = s.proved;
+    one["bound"] = s.proved ? NumberOrNull(s.bound) : Json(nullptr);
+    one["value"] = s.value;
+    out.push_back(one);
+  }
   return out;
 }
 

@@ -30,6 +30,8 @@ std::string FindingSentence(const solver::Proof& proof, const solver::Finding& f
 // `proof` of report.json: whether, the sentence, how much work, the findings, and the intervals
 // (first key of each) in which something is not proved.
 Json ProofJson(const solver::Proof& proof, const solver::MetricsContext& subject);
+// kind, limit, the worst value met, and the bound where it is proved.
+Json StatementsJson(const solver::Proof& proof);
 Json FindingsJson(const solver::Proof& proof, const solver::MetricsContext& subject);
 
 }  // namespace retarget::proof

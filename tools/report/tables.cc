@@ -204,9 +204,13 @@ std::string VerdictHtml(const Json& report) {
   std::vector<Sentence> asked = verdict.asked;
   for (size_t k = 2; k < asked.size(); ++k) asked[1].text += " " + asked[k].text;  // in one line
   asked.resize(std::min<size_t>(2, asked.size()));
-  const std::string left = Definition("Asked", asked, kAll) +
-                           Definition("Missed", verdict.missed, 3, "bad") +
-                           Definition("Stopped", verdict.stopped, kAll);
+  std::vector<Sentence> proof;
+  if (const std::string text = TextAt(report, "/proof/sentence"); !text.empty()) {
+    proof.push_back({text});
+  }
+  const std::string left =
+      Definition("Asked", asked, kAll) + Definition("Between frames", proof, 1) +
+      Definition("Missed", verdict.missed, 3, "bad") + Definition("Stopped", verdict.stopped, kAll);
   const std::string right =
       Definition("Compared", verdict.compared, kAll) + Definition("Look at", verdict.look, kAll);
   return fmt::format(

@@ -42,6 +42,7 @@ export interface Report {
   bodies: PerFigure<{ radius: Record<string, number> }>;
   contacts: PerFigure<{ node: string; first: number; last: number }[]>;
   requirements: Requirement[];
+  proof?: { sentence: string; open: number[] }; // open: key intervals, by the key before
   simulation?: null | { status: string; message: string };
   solve: {
     history: {

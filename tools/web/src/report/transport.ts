@@ -171,13 +171,20 @@ export class Transport {
     for (const v of variants) {
       if (this.series[v]) labels.append(element("span", {}, variantTitle[v].toLowerCase()));
     }
+    if (this.report.proof) labels.append(element("span", {}, "proof"));
     const scrub = element(
       "span",
-      { class: "scrub-box", title: "dark: a tangle is lost; ✕: a limb passes through a limb" },
+      {
+        class: "scrub-box",
+        title:
+          "dark: a tangle is lost; ✕: a limb passes through a limb; proof: dark where something " +
+          "is not proved between two frames",
+      },
       this.track,
       this.range,
     );
-    scrub.style.setProperty("--rows", String(variants.filter((v) => this.series[v]).length));
+    const rows = variants.filter((v) => this.series[v]).length + (this.report.proof ? 1 : 0);
+    scrub.style.setProperty("--rows", String(rows));
     const keys = element(
       "span",
       { class: "group" },
@@ -234,5 +241,12 @@ export class Transport {
           context.stroke();
         }
       });
+    const { proof } = this.report;
+    if (!proof) return;
+    const top = variants.filter((v) => this.series[v]).length * kRow + 1;
+    context.fillStyle = themeColour("--held");
+    context.fillRect(x(0), top, width, kRow - 2);
+    context.fillStyle = themeColour("--bad");
+    for (const k of proof.open) context.fillRect(x(k), top, cell + 0.3, kRow - 2);
   }
 }
