@@ -20,11 +20,14 @@ struct Attempt {
   Metrics metrics;
   int missed = 0;                  // requirements
   std::vector<std::string> worse;  // than the baseline in these
+  std::string cure;                // what was done about pass-throughs
 };
 
 bool Better(const Attempt& a, const Attempt& b) {
   const auto rank = [](const Attempt& x) {
-    return std::tuple(x.worse.size(), x.metrics.pass_throughs.size(), x.missed, x.solve.cost);
+    const bool unfinished = x.solve.status != SolveStatus::kConverged;
+    return std::tuple(x.worse.size(), x.metrics.pass_throughs.size(), unfinished, x.missed,
+                      x.solve.cost);
   };
   return rank(a) < rank(b);
 }
@@ -71,6 +74,7 @@ class Attempts {
       }
     }
     if (!best_.worse.empty()) TryOthers();
+    if (!best_.cure.empty()) result_->warnings.push_back(best_.cure);
     best_.solve.seconds = seconds_;  // all were needed
     if (interrupted_) best_.solve.status = SolveStatus::kInterrupted;
     result_->solve = std::move(best_.solve);
@@ -101,9 +105,8 @@ class Attempts {
     }
     const bool whole = result_->simulation.frames_simulated == scene_.num_frames();
     if (whole && !result_->start.simulated_cost) {
-      attempt(Start::kSimulated, "the simulated motion", [&] {
-        return Solve(UnknownsFromPoses(scene_, result_->simulation.motion), {1});
-      });
+      attempt(Start::kSimulated, "the simulated motion",
+              [&] { return Solve(UnknownsFromPoses(scene_, result_->simulation.motion), {1}); });
     }
     if (best_.worse.empty() || interrupted_) return;
     result_->warnings.push_back("the result is worse than the simulated baseline in " +
@@ -132,16 +135,15 @@ class Attempts {
 
   // The same without pass-throughs, as far as that can be.
   Attempt Cured(Attempt attempt) {
-    if (attempt.metrics.pass_throughs.empty() || !MayGoOn()) return attempt;
+    const bool deep = DeepestOf(attempt.metrics) > problem_.settings().requirements.penetration_m;
+    if ((attempt.metrics.pass_throughs.empty() && !deep) || !MayGoOn()) return attempt;
     Unknowns x = attempt.solve.unknowns;
     const int frames = CurePassThroughs(problem_, &x);
     if (frames == 0) return attempt;
     Attempt cured = Solve(x, {1});
     if (!Better(cured, attempt)) return attempt;
-    result_->warnings.push_back(
-        "limbs went through limbs after frame " +
-        std::to_string(attempt.metrics.pass_throughs[0].frame) + ": " + std::to_string(frames) +
-        " frames were solved again from the side of the template, and the clip once more");
+    cured.cure = "limbs went through limbs from frame to frame: " + std::to_string(frames) +
+                 " frames were solved again from the side of the template, and the clip once more";
     return cured;
   }
 

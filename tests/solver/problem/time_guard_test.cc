@@ -41,11 +41,11 @@ std::vector<NodePositions> NodesOf(const Scene& scene, const Unknowns& x) {
 
 std::vector<int> ThroughIn(const Scene& scene, const Unknowns& x) {
   std::vector<int> frames;
-  const std::vector<char> through = GoesThrough(scene, x, NodesOf(scene, x), 2);
+  const std::vector<char> through = FramesThatGoThrough(scene, x.edit, NodesOf(scene, x), 2);
   EXPECT_EQ(through.size(), static_cast<size_t>(kFrames - 1));
   for (int t = 0; t + 1 < kFrames; ++t) {
     if (through[t]) frames.push_back(t);
-    EXPECT_EQ(through[t] != 0, GoesThroughAfter(scene, x, t)) << t;
+    EXPECT_EQ(through[t] != 0, WayBetween(scene, x.edit, t, t + 1).jump.size > 0.5) << t;
   }
   return frames;
 }
