@@ -194,7 +194,7 @@ class BandedStage {
       displacement_[t] = LargestDisplacement(accepted_[t], trial_[t]);
       tunnelled_[t] = LargestGliJump(scene_.body, accepted_[t], trial_[t], kGuardReach).size > jump;
     });
-    trial_through_ = FramesThatGoThrough(scene_, x.edit, trial_, threads_);
+    trial_through_ = FramesThatGoThrough(scene_, x.edit, trial_, context_.refuse_dips, threads_);
     return std::accumulate(trial_cost_.begin(), trial_cost_.end(), 0.0);
   }
 

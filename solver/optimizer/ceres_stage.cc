@@ -62,7 +62,8 @@ class FrameCache : public ceres::EvaluationCallback {
       if (guarding_) moved = std::max(moved, LargestDisplacement(accepted_[t], now));
       accepted_[t] = now;
     }
-    accepted_through_ = FramesThatGoThrough(scene_, unknowns_.edit, accepted_, threads_);
+    accepted_through_ =
+        FramesThatGoThrough(scene_, unknowns_.edit, accepted_, context_.refuse_dips, threads_);
     last_step_m_ = moved;
     guarding_ = true;
     sound_ = true;
@@ -80,7 +81,8 @@ class FrameCache : public ceres::EvaluationCallback {
                (moved > kStill && LargestGliJump(scene_.body, accepted_[t], now, kGuardReach).size >
                                       settings.gli_jump);
     });
-    const std::vector<char> through = FramesThatGoThrough(scene_, unknowns_.edit, nodes, threads_);
+    const std::vector<char> through =
+        FramesThatGoThrough(scene_, unknowns_.edit, nodes, context_.refuse_dips, threads_);
     for (size_t t = 0; t < through.size(); ++t) bad[t] |= through[t] && !accepted_through_[t];
     return std::count(bad.begin(), bad.end(), 0) == static_cast<long>(bad.size());
   }

@@ -14,11 +14,13 @@ Way WayBetween(const Scene& scene, const MatX& edit, int from, int to) {
 }
 
 std::vector<char> FramesThatGoThrough(const Scene& scene, const MatX& edit,
-                                      const std::vector<NodePositions>& nodes, int threads) {
+                                      const std::vector<NodePositions>& nodes, bool dips,
+                                      int threads) {
   std::vector<char> through(nodes.empty() ? 0 : nodes.size() - 1, 0);
   ParallelFor(static_cast<int>(through.size()), threads, [&](int t, int) {
-    through[t] = MayMeetOnTheWay(scene.body, nodes[t], nodes[t + 1]) &&
-                 WayBetween(scene, edit, t, t + 1).jump.size > kPassThroughGli;
+    if (!MayMeetOnTheWay(scene.body, nodes[t], nodes[t + 1])) return;
+    const Way way = WayBetween(scene, edit, t, t + 1);
+    through[t] = dips ? !way.IsClear() : way.jump.size > kPassThroughGli;
   });
   return through;
 }

@@ -15,8 +15,10 @@ namespace retarget::solver {
 Way WayBetween(const Scene& scene, const MatX& edit, int from, int to);
 
 // Whether a limb goes through a limb from every frame to the next, by the node places of all: cheap
-// where nothing is near. Dips do not count: while contacts are weak they come and go.
+// where nothing is near. Dips count too where `dips` says so; while contacts are weak they come and
+// go.
 std::vector<char> FramesThatGoThrough(const Scene& scene, const MatX& edit,
-                                      const std::vector<NodePositions>& nodes, int threads);
+                                      const std::vector<NodePositions>& nodes, bool dips,
+                                      int threads);
 
 }  // namespace retarget::solver
