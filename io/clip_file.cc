@@ -1,5 +1,6 @@
 #include "io/clip_file.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -7,7 +8,10 @@
 #include <sstream>
 
 #include "io/gltf/container.h"
+#include "io/recognition/figures.h"
+#include "io/text/quoted.h"
 #include "io/text/read_file.h"
+#include "model/rig/tree.h"
 
 namespace retarget::io {
 namespace {
@@ -77,7 +81,6 @@ ClipFile FromGltf(std::string bytes, const ClipPath& path) {
   clip.metres_per_unit = 1;
   clip.up = 'y';
   clip.map = file.map;
-  clip.select = path.select;
   clip.has_motion = !path.select.at_rest && HasAnimation(file);
   clip.original = std::move(file);
   return clip;
@@ -104,11 +107,58 @@ void ParseSelection(const std::string& text, const std::string& selection, GltfS
   while (std::getline(parts, part, ',')) {
     const size_t equals = part.find('=');
     const std::string key = part.substr(0, equals);
-    if (equals == std::string::npos || (key != "animation" && key != "skin")) {
-      throw InputError(text + ": expected #animation=NAME,skin=NAME after the file, found " + part);
+    std::string* value = key == "animation" ? &select->animation
+                         : key == "skin"    ? &select->skin
+                         : key == "figure"  ? &select->figure
+                                            : nullptr;
+    if (equals == std::string::npos || value == nullptr) {
+      throw InputError(
+          text + ": expected #animation=NAME,skin=NAME,figure=NAME after the file, found " + part);
     }
-    (key == "animation" ? select->animation : select->skin) = part.substr(equals + 1);
+    *value = part.substr(equals + 1);
   }
+}
+
+void CutTo(const std::vector<int>& joints, ClipFile* clip) {
+  if (auto* bvh = std::get_if<BvhFile>(&clip->original)) {
+    *bvh = CutBvh(*bvh, joints);
+    clip->motion = bvh->motion;
+  } else if (auto* gltf = std::get_if<GltfClip>(&clip->original)) {
+    *gltf = CutGltf(*gltf, joints);
+    clip->motion = gltf->motion;
+  }
+}
+
+// Leaves the selected figure, or finds out whether there is a choice.
+void ChooseFigure(const ClipPath& path, ClipFile* clip) {
+  clip->select = path.select;
+  const std::string& wanted = path.select.figure;
+  const auto* gltf = std::get_if<GltfClip>(&clip->original);
+  if (wanted.empty()) {
+    if (clip->map) return;  // the file says who is meant
+    const std::vector<FileFigure> figures = FindFigures(clip->motion);
+    if (figures.size() < 2) return;
+    for (const FileFigure& figure : figures) clip->figures.push_back(figure.name);
+    clip->figure_joints = BranchOf(clip->motion.rig, figures[0].joint);
+    return;
+  }
+  // Of several skinned characters it was told by its skins, and the only one is the first.
+  if (gltf != nullptr && gltf->is_one_of_several) return;
+  const FileFigure figure = SelectFigure(clip->motion, wanted, path.path);
+  const std::vector<int> joints = BranchOf(clip->motion.rig, figure.joint);
+  clip->select.figure = figure.name;  // in what is written, it may be another number
+  if (joints.size() == clip->motion.rig.joints.size()) return;
+  clip->notes.push_back(
+      "the figure " + Quoted(figure.name) +
+      " is read alone: what is written on its rig does not hold the others' motion");
+  CutTo(joints, clip);
+}
+
+// A character or an animation of VRM keeps the ending by which its programs know it.
+std::string ExtensionOf(const GltfClip& clip, const std::string& usual) {
+  std::string own = fs::path(clip.name).extension().string();
+  std::ranges::transform(own, own.begin(), [](unsigned char c) { return std::tolower(c); });
+  return own == ".vrm" || own == ".vrma" ? own : usual;
 }
 
 // Files beside a .gltf that it names by a relative path: buffers and images.
@@ -130,6 +180,43 @@ std::vector<std::string> ExternalFiles(const GltfClip& clip) {
   return files;
 }
 
+ClipFile ParseFormat(const ClipPath& path, std::string bytes, const std::string& skeleton,
+                     double fps) {
+  const Format format = FormatOf(bytes);
+  const bool selected = !path.select.animation.empty() || !path.select.skin.empty();
+  if (selected && format != Format::kGltf) {
+    throw InputError(path.path +
+                     ": is no glTF file, so #animation and #skin mean nothing; one of several "
+                     "people is selected with #figure=NAME");
+  }
+  if (!path.skeleton.empty()) {
+    if (FormatOf(skeleton) != Format::kAsf) {
+      throw InputError(path.skeleton + ": expected an Acclaim skeleton (ASF) before the ':'");
+    }
+    return FromAcclaim(skeleton, bytes, path, fps);
+  }
+  switch (format) {
+    case Format::kBvh:
+      return FromBvh(std::move(bytes), path.path);
+    case Format::kGltf:
+      return FromGltf(std::move(bytes), path);
+    case Format::kAsf:
+      throw InputError(path.path + ": is an Acclaim skeleton; name its motion too: " + path.path +
+                       ":CLIP.amc");
+    case Format::kAmc:
+      throw InputError(path.path +
+                       ": is an Acclaim motion; name its skeleton too: SKELETON.asf:" + path.path);
+    case Format::kUnknown:
+      break;
+  }
+  // The reader of the likeliest format says what is wrong.
+  const std::string extension = fs::path(path.path).extension().string();
+  if (extension == ".glb" || extension == ".gltf" || extension == ".vrm" || extension == ".vrma") {
+    return FromGltf(std::move(bytes), path);
+  }
+  return FromBvh(std::move(bytes), path.path);
+}
+
 }  // namespace
 
 ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double ratio) {
@@ -138,6 +225,7 @@ ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double r
   for (size_t j = 0; j < motion.rig.joints.size(); ++j) {
     if (motion.rig.joints[j].parent < 0) {
       scaled.clip.joints[j].scale *= ratio;
+      scaled.clip.joints[j].size *= ratio;
       continue;
     }
     for (RigFrame& frame : scaled.motion.frames) frame.translation[j] /= ratio;
@@ -192,45 +280,17 @@ ClipFile ReadClipFile(const ClipPath& path, double fps) {
 
 ClipFile ParseClipFile(const ClipPath& path, std::string bytes, const std::string& skeleton,
                        double fps) {
-  const Format format = FormatOf(bytes);
-  const bool selected = !path.select.animation.empty() || !path.select.skin.empty();
-  if (selected && format != Format::kGltf) {
-    throw InputError(path.path + ": is no glTF file, so #animation and #skin mean nothing");
-  }
-  if (!path.skeleton.empty()) {
-    if (FormatOf(skeleton) != Format::kAsf) {
-      throw InputError(path.skeleton + ": expected an Acclaim skeleton (ASF) before the ':'");
-    }
-    return FromAcclaim(skeleton, bytes, path, fps);
-  }
-  switch (format) {
-    case Format::kBvh:
-      return FromBvh(std::move(bytes), path.path);
-    case Format::kGltf:
-      return FromGltf(std::move(bytes), path);
-    case Format::kAsf:
-      throw InputError(path.path + ": is an Acclaim skeleton; name its motion too: " + path.path +
-                       ":CLIP.amc");
-    case Format::kAmc:
-      throw InputError(path.path +
-                       ": is an Acclaim motion; name its skeleton too: SKELETON.asf:" + path.path);
-    case Format::kUnknown:
-      break;
-  }
-  // The reader of the likeliest format says what is wrong.
-  const std::string extension = fs::path(path.path).extension().string();
-  if (extension == ".glb" || extension == ".gltf" || extension == ".vrm" || extension == ".vrma") {
-    return FromGltf(std::move(bytes), path);
-  }
-  return FromBvh(std::move(bytes), path.path);
+  ClipFile clip = ParseFormat(path, std::move(bytes), skeleton, fps);
+  ChooseFigure(path, &clip);
+  return clip;
 }
 
 ClipFile ReadClipFile(const std::string& text) { return ReadClipFile(ParseClipPath(text)); }
 
 std::vector<std::string> NamesOfClipFile(const ClipFile& original, const std::string& stem) {
   if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
-    if (gltf->bytes.rfind("glTF", 0) == 0) return {stem + ".glb"};
-    std::vector<std::string> names = {stem + ".gltf"};
+    if (gltf->bytes.rfind("glTF", 0) == 0) return {stem + ExtensionOf(*gltf, ".glb")};
+    std::vector<std::string> names = {stem + ExtensionOf(*gltf, ".gltf")};
     for (const std::string& file : ExternalFiles(*gltf)) names.push_back(file);
     return names;
   }
@@ -263,8 +323,9 @@ std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion
 RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& files) {
   const NamedBytes& first = files[0];
   if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
-    const ClipPath path = WrittenPath(original, "", "");
-    return ParseGltf(first.bytes, first.name, gltf->folder, path.select).motion;
+    ClipPath path = WrittenPath(original, gltf->folder, "");
+    path.path = (gltf->folder.empty() ? "" : gltf->folder + "/") + first.name;
+    return ParseClipFile(path, first.bytes, "").motion;
   }
   if (original.format == "Acclaim") {
     return ParseAcclaim(files[1].bytes, files[1].name, first.bytes, first.name,
@@ -272,6 +333,30 @@ RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& file
         .motion;
   }
   return ParseBvh(first.bytes, first.name).motion;
+}
+
+PlayedFile PlayedFileOf(const ClipFile& original, const std::vector<NamedBytes>& files) {
+  PlayedFile played;
+  played.format = original.format;
+  played.name = files[0].name;
+  played.bytes = files[0].bytes;
+  if (original.format == "Acclaim") {
+    played.skeleton = files[1].bytes;
+    played.fps = 1 / original.motion.frame_time;
+  }
+  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
+    played.folder = gltf->folder;
+    played.animation = kAnimationName;
+  }
+  return played;
+}
+
+PlayedJoint JointInFile(const ClipFile& original, int joint) {
+  PlayedJoint played{original.motion.rig.joints[joint].name};
+  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
+    played.node = gltf->joints[joint].node;
+  }
+  return played;
 }
 
 ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem) {
@@ -282,6 +367,7 @@ ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const 
   if (original.format == "glTF") {
     path.select.animation = kAnimationName;
     path.select.skin = original.select.skin;
+    path.select.figure = original.select.figure;
   }
   return path;
 }

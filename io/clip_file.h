@@ -12,18 +12,20 @@
 #include "io/bvh/bvh.h"
 #include "io/gltf/clip.h"
 #include "io/named_bytes.h"
+#include "io/playback/playback.h"
 
 namespace retarget::io {
 
 // Where a clip is: a path, with what some formats need beside it:
 //   walk.bvh
 //   hero.glb#animation=Walk,skin=1     (names, or indices from 0; either may be left out)
+//   pair.bvh#figure=1                  (of several people, of any format: a name or an index)
 //   skeleton.asf:walk.amc
 // A file that is called just so is that file.
 struct ClipPath {
   std::string path;      // of the motion
   std::string skeleton;  // of an Acclaim motion
-  GltfSelect select;
+  GltfSelect select;     // of other formats the figure alone
 };
 ClipPath ParseClipPath(const std::string& text);  // throws InputError
 // The same of files in memory: what stands before '#', or on either side of ':', is only a name.
@@ -36,8 +38,12 @@ struct ClipFile {
   std::optional<double> metres_per_unit;  // as the format says it
   std::optional<char> up;
   std::optional<JointMap> map;  // as the file says it (VRM)
-  GltfSelect select;            // of a glTF file
-  bool has_motion = true;       // false: a character at rest
+  GltfSelect select;
+  // Of a file of several people of whom none was selected, `motion` being of all: the joints of the
+  // first with what carries them, and the names of all. Else empty.
+  std::vector<int> figure_joints;
+  std::vector<std::string> figures;
+  bool has_motion = true;  // false: a character at rest
   std::vector<std::string> notes;
   std::string bytes;  // of all files read, for hashing
 };
@@ -51,8 +57,8 @@ ClipFile ParseClipFile(const ClipPath& path, std::string bytes, const std::strin
                        double fps = kAcclaimFps);
 
 // Files that hold `motion` in the format of `original`, the first of them the motion itself; names
-// begin with `stem`: a.bvh, a.glb, a.gltf with the files it refers to, a.amc with its a.asf.
-// `stature_ratio` is that of the body the motion is for, over the file's own.
+// begin with `stem`: a.bvh, a.glb, a.gltf with the files it refers to, a.vrm, a.vrma, a.amc with
+// its a.asf. `stature_ratio` is that of the body the motion is for, over the file's own.
 std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion& motion,
                                        const std::string& stem, double stature_ratio);
 // The names alone.
@@ -68,6 +74,10 @@ ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double r
 
 // The motion that such files hold, read as any reader would.
 RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& files);
+
+// The same files to be played by io/playback/playback.h, and a joint of the clip's rig in them.
+PlayedFile PlayedFileOf(const ClipFile& original, const std::vector<NamedBytes>& files);
+PlayedJoint JointInFile(const ClipFile& original, int joint);
 
 // Where FormatClipFile puts the motion in `folder`, for reading it back.
 ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem);

@@ -7,6 +7,9 @@
 
 #include "io/files.h"
 #include "io/map_file.h"
+#include "io/text/quoted.h"
+#include "model/body/travel.h"
+#include "model/rig/tree.h"
 
 namespace retarget::io {
 namespace {
@@ -32,7 +35,8 @@ LoadedClip ReadClip(const ClipOptions& options) {
 
 // What the options, the map file and the format say, in this order.
 RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& file) {
-  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map, options.words};
+  RecogniseOptions recognise{file.metres_per_unit, file.up, file.map, options.words,
+                             options.stature};
   if (!options.map.empty()) {
     MapFile map = ReadMap(options.map, file.motion.rig);
     if (map.metres_per_unit) recognise.metres_per_unit = map.metres_per_unit;
@@ -42,15 +46,44 @@ RecogniseOptions RecogniseOptionsOf(const ClipOptions& options, const ClipFile& 
   if (!options.units.empty()) {
     recognise.metres_per_unit = ParseUnits(options.units);
     if (!recognise.metres_per_unit) {
-      throw InputError(fmt::format("{} {}: expected cm, m, mm, in, cmu or metres per unit",
+      throw InputError(fmt::format("{} {}: expected cm, m, mm, dm, in, cmu or metres per unit",
                                    options.Named(options.words.units), options.units));
     }
   }
   if (!options.up.empty()) recognise.up = options.up[0];
+  if (options.ik_targets != "follow" && options.ik_targets != "keep") {
+    throw InputError(fmt::format("{} {}: expected follow or keep",
+                                 options.Named(options.words.ik_targets), options.ik_targets));
+  }
   return recognise;
 }
 
+std::string FigureNote(const std::vector<std::string>& figures) {
+  std::string list;
+  for (size_t n = 0; n < figures.size(); ++n) {
+    list += fmt::format("{}{} {}", n > 0 ? ", " : "", n, Quoted(figures[n]));
+  }
+  return fmt::format(
+      "the file holds {} figures, {}: the first one is read; #figure=1 after its name selects the "
+      "next",
+      figures.size(), list);
+}
+
+// Recognises the first of several figures, in the joints of all.
+RigFacts RecogniseFile(const ClipFile& file, const RecogniseOptions& options,
+                       const std::string& name) {
+  if (file.figure_joints.empty() || options.map) return Recognise(file.motion, options, name);
+  const std::vector<int>& joints = file.figure_joints;
+  RigFacts facts = Recognise(MotionOfJoints(file.motion, joints), options, name);
+  VisitJoints(&facts.map, [&](int* joint) {
+    if (*joint >= 0) *joint = joints[static_cast<size_t>(*joint)];
+  });
+  facts.notes.insert(facts.notes.begin(), FigureNote(file.figures));
+  return facts;
+}
+
 void Bind(LoadedClip* clip) {
+  if (clip->options.ik_targets == "keep") clip->facts.followers.clear();
   const int chest = ChestBone(clip->file.motion, clip->facts.map);
   try {
     clip->binding =
@@ -89,6 +122,33 @@ double LegLength(const Body& body) {
   return sum / 2;
 }
 
+// Gives a clip that strides in place its way over the floor, or says that it has none.
+void RecoverTravel(LoadedClip* clip) {
+  RigMotion& motion = clip->file.motion;
+  Clip poses;
+  poses.fps = 1 / motion.frame_time;
+  for (const RigFrame& frame : motion.frames) poses.frames.push_back(clip->binding->PoseOf(frame));
+  const Travel travel = FindTravel(clip->body, poses, ContactSettings());
+  if (!travel.clear()) return;
+  const std::string option = clip->options.Named(clip->options.words.travel);
+  if (clip->options.keep_in_place) {
+    clip->facts.notes.push_back(fmt::format(
+        "it seems to walk in place: its standing foot slides at {:.2f} m/s, and is left "
+        "so as asked for ({} keep)",
+        travel.sliding_speed, option));
+    return;
+  }
+  for (size_t t = 0; t < motion.frames.size(); ++t) {
+    Pose moved = poses.frames[t];
+    moved.root_position += travel.offset[t];
+    motion.frames[t] = clip->binding->Apply(motion.frames[t], moved);
+  }
+  clip->facts.notes.push_back(
+      fmt::format("it walks in place: its way was recovered from the standing foot, {:.1f} m at "
+                  "{:.2f} m/s on average; {} keep leaves it in place",
+                  travel.offset.back().norm(), travel.speed, option));
+}
+
 // The character with the motion of `clip`.
 LoadedClip OnCharacter(LoadedClip clip) {
   LoadedClip hero;
@@ -105,7 +165,7 @@ LoadedClip OnCharacter(LoadedClip clip) {
   options.units = options.up = "";
   RigMotion& motion = hero.file.motion;
   motion.frames.resize(1);
-  hero.facts = Recognise(motion, RecogniseOptionsOf(options, hero.file), options.path);
+  hero.facts = RecogniseFile(hero.file, RecogniseOptionsOf(options, hero.file), options.path);
   hero.facts.notes.insert(hero.facts.notes.begin(), hero.file.notes.begin(), hero.file.notes.end());
   hero.options.path = options.path;
   Bind(&hero);
@@ -153,7 +213,7 @@ std::string MapOfClip(const ClipOptions& options) {
   const ClipFile file = ReadClip(options).file;
   const RecogniseOptions recognise = RecogniseOptionsOf(options, file);
   try {
-    return FormatMap(file.motion, Recognise(file.motion, recognise, options.path));
+    return FormatMap(file.motion, RecogniseFile(file, recognise, options.path));
   } catch (const InputError& refusal) {
     return FormatMapDraft(file.motion, refusal.what());
   }
@@ -162,7 +222,7 @@ std::string MapOfClip(const ClipOptions& options) {
 LoadedClip RecogniseClip(const ClipOptions& options) {
   LoadedClip clip = ReadClip(options);
   RigMotion& motion = clip.file.motion;
-  clip.facts = Recognise(motion, RecogniseOptionsOf(options, clip.file), options.path);
+  clip.facts = RecogniseFile(clip.file, RecogniseOptionsOf(options, clip.file), options.path);
   clip.facts.notes.insert(clip.facts.notes.begin(), clip.file.notes.begin(), clip.file.notes.end());
   if (options.skip_frames >= motion.num_frames()) {
     throw InputError(fmt::format("{} {}: {} has only {} frames",
@@ -184,6 +244,7 @@ LoadedClip LoadClip(const ClipOptions& options) {
         options.path, options.Named(options.words.character), options.path));
   }
   Bind(&clip);
+  RecoverTravel(&clip);
   if (options.start > clip.duration() + 1e-9) {
     throw InputError(fmt::format("{} {}: {} is only {:.3f} s long",
                                  options.Named(options.words.start), options.start, options.path,

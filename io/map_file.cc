@@ -50,6 +50,7 @@ class MapReader {
     int above = root;
     for (const SidePart& part : kSideParts) {
       if (part.joint == &JointMap::Side::hip) above = root;
+      if (part.joint == &JointMap::Side::ankle) above = -1;  // feet may hang from a master bone
       int& joint = side.*part.joint;
       joint = ReadJoint(joints, prefix + part.name, part.required, above);
       if (joint >= 0) above = joint;
@@ -154,7 +155,7 @@ MapFile ParseMap(const std::string& text, const std::string& name, const Rig& ri
   MapFile file;
   if (const auto units = root.Find("units")) {
     file.metres_per_unit = ParseUnits(units->Text());
-    if (!file.metres_per_unit) units->RefuseExpecting("cm, m, mm, in, cmu or metres per unit");
+    if (!file.metres_per_unit) units->RefuseExpecting("cm, m, mm, dm, in, cmu or metres per unit");
   }
   if (const auto up = root.Find("up")) {
     file.up = up->Name("axis", {"y", "z"}) == 0 ? 'y' : 'z';

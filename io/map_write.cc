@@ -116,8 +116,9 @@ std::string FormatMap(const RigMotion& motion, const RigFacts& facts) {
     if (IsUtf8(note)) writer.Comment(note);
   }
   writer.Add("format: 1");
-  writer.Add(fmt::format("units: {:<18} # cm, m, mm, in, cmu or metres per unit; left out: guessed",
-                         facts.unit_name));
+  writer.Add(
+      fmt::format("units: {:<18} # cm, m, mm, dm, in, cmu or metres per unit; left out: guessed",
+                  facts.unit_name));
   writer.Add(fmt::format("up: {:<21} # y or z; left out: from the motion", facts.up));
   writer.Joints(facts.map, false);
   return writer.text();

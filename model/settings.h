@@ -40,6 +40,7 @@ struct Weights {
   double smoothness = 10;
   double root_smoothness = 20;
   double foot_lock = 300;
+  double foot_swing = 100;
   double hold = 60;
   double penetration = 60;
   double self_penetration = 60;
@@ -71,6 +72,10 @@ struct Requirements {
   double penetration_m = 0.02;         // largest, between the bodies
   double penetration_1cm_percent = 1;  // share of frames over 1 cm
   double foot_drift_m = 0.01;
+  double foot_travel_m = 0.02;           // near the floor in one swing, or ...
+  double foot_travel_ratio = 1.5;        // ... this many times the source's, whichever is more
+  double foot_acceleration = 10;         // m/s^2 where a contact begins or ends, or ...
+  double foot_acceleration_ratio = 1.5;  // ... this many times the source's
   double floor_m = 0.01;
   double hold_m = 0.02;
   double segment_length_percent = 0.5;  // largest change of a segment as it is written
@@ -159,6 +164,8 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("weights.root_smoothness", w.root_smoothness, "1/m, 1/rad", "the same of the root edit", 0,
         kMax);
   visit("weights.foot_lock", w.foot_lock, "1/m", "planted feet stay where they are", 0, kMax);
+  visit("weights.foot_swing", w.foot_swing, "1/m",
+        "free feet near the floor move along the path of the capture", 0, kMax);
   visit("weights.hold", w.hold, "1/m, 1/rad", "hands hold what the template holds", 0, kMax);
   visit("weights.penetration", w.penetration, "1/m", "the bodies do not overlap", 0, kMax);
   visit("weights.self_penetration", w.self_penetration, "1/m",
@@ -199,6 +206,14 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
         "share of frames over 1 cm", 0, 100);
   visit("requirements.foot_drift_m", r.foot_drift_m, "m",
         "of a planted node from where its contact began", 0, 1);
+  visit("requirements.foot_travel_m", r.foot_travel_m, "m",
+        "of a free foot near the floor in one swing, or:", 0, 10);
+  visit("requirements.foot_travel_ratio", r.foot_travel_ratio, "",
+        "the same, times the source's, whichever is more", 0, kMax);
+  visit("requirements.foot_acceleration", r.foot_acceleration, "m/s^2",
+        "of a foot where a contact begins or ends, or:", 0, kMax);
+  visit("requirements.foot_acceleration_ratio", r.foot_acceleration_ratio, "",
+        "the same, times the source's, whichever is more", 0, kMax);
   visit("requirements.floor_m", r.floor_m, "m", "deepest point below the floor", 0, 1);
   visit("requirements.hold_m", r.hold_m, "m", "largest distance of held points", 0, 1);
   visit("requirements.segment_length_percent", r.segment_length_percent, "%",

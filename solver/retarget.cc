@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "model/body/travel.h"
 #include "solver/attempts.h"
 #include "solver/problem/root_targets.h"
 #include "solver/start/weak_tags.h"
@@ -38,6 +39,20 @@ void WarnOfWeakTags(RetargetResult* result) {
   }
 }
 
+// A figure that stands in the template, and in whose clip no foot is ever planted.
+void WarnOfFeet(int f, RetargetResult* result) {
+  const Scene& scene = result->scene;
+  if (scene.posture.supports[f].empty() || !scene.contacts[f].empty()) return;
+  const Travel travel = FindTravel(scene.body[f], scene.source[f], ContactSettings());
+  char sentence[160];
+  std::snprintf(
+      sentence, sizeof sentence,
+      "no planted foot found in clip %c: nothing holds its feet, and nothing can be said of "
+      "them; the lowest moves at %.2f m/s (median)",
+      f == 0 ? 'a' : 'b', travel.sliding_speed);
+  result->warnings.emplace_back(sentence);
+}
+
 }  // namespace
 
 RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
@@ -60,6 +75,7 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
   }
   scene.base = EditBase(scene);
   WarnOfWeakTags(&result);
+  for (int f = 0; f < 2; ++f) WarnOfFeet(f, &result);
   return result;
 }
 

@@ -61,6 +61,7 @@ const std::map<std::string, Names>& KnownFolders() {
       {"solver/start", {"solver/problem", "solver/problem/terms", "solver/optimizer"}},
       {"solver/simulation", {"solver/problem", "solver/problem/terms", "solver/optimizer"}},
       {"solver/metrics", {"solver/problem", "solver/problem/terms", "solver/optimizer"}},
+      {"solver/proof", {"solver/problem", "solver/metrics"}},
       {"solver",
        {"solver/problem", "solver/problem/terms", "solver/optimizer", "solver/start",
         "solver/simulation", "solver/metrics"}},
@@ -69,17 +70,21 @@ const std::map<std::string, Names>& KnownFolders() {
       {"io/bvh", {"io/text"}},
       {"io/acclaim", {"io/text"}},
       {"io/gltf", {"io/text", "io/bvh"}},  // one frame time for all formats: io/bvh/bvh.h
+      {"io/playback", {"io/text"}},
       {"io/recognition", {"io/text", "io/bvh", "io/acclaim", "io/gltf"}},
       {"io/render", {}},
       {"io/scene", {"io/text", "io/bvh", "io/acclaim", "io/gltf", "io/render"}},
       {"io",
-       {"io/text", "io/bvh", "io/acclaim", "io/gltf", "io/recognition", "io/render", "io/scene"}},
+       {"io/text", "io/bvh", "io/acclaim", "io/gltf", "io/playback", "io/recognition", "io/render",
+        "io/scene"}},
 
       {"tools/report", {}},
-      {"tools/api", {"tools/report"}},
+      {"tools/proof", {"tools/report"}},
+      {"tools/api", {"tools/report", "tools/proof"}},
       {"tools/posing", {"tools/report", "tools/api"}},
       {"tools/studio", {"tools/report", "tools/api", "tools/posing"}},
-      {"tools/cli", {"tools/report", "tools/api", "tools/posing", "tools/studio"}},
+      {"tools/cli", {"tools/report", "tools/proof", "tools/api", "tools/posing", "tools/studio"}},
+      {"tools/cli/proof", {"tools/report", "tools/proof", "tools/api", "tools/cli"}},
       {"tools/examples/embed", {}},
       {"tools/bench", {"tools/report", "tools/api", "tools/posing", "tools/studio"}}};
   return folders;

@@ -27,6 +27,7 @@ RigJoint JointOf(const std::vector<BoneBlock>& blocks, const BoneBlock& bone, in
   if (bone.children.empty() && parent >= 0) joint.end_site = bone.length * bone.direction;
   const auto moves = [](int kind) { return kind < kFirstRotationDof; };
   joint.translates = std::ranges::count_if(bone.dofs, moves) == 3;
+  joint.can_translate = joint.translates;
   return joint;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/bvh/hierarchy.h"
+#include "io/bvh/offsets.h"
 #include "io/text/cursor.h"
 #include "io/text/quoted.h"
 #include "io/text/read_file.h"
@@ -160,11 +161,11 @@ double SnappedFrameTime(double frame_time) {
 
 BvhFile ParseBvh(std::string_view text, const std::string& name) {
   Cursor cursor(text, name);
-  bvh::Hierarchy hierarchy = bvh::ReadHierarchy(&cursor);
+  const bvh::Hierarchy hierarchy = bvh::ReadHierarchy(&cursor);
   BvhFile file;
-  file.motion.rig = std::move(hierarchy.rig);
-  file.channels = std::move(hierarchy.channels);
-  file.warnings = std::move(hierarchy.warnings);
+  file.motion.rig = hierarchy.rig;
+  file.channels = hierarchy.channels;
+  file.warnings = hierarchy.warnings;
   file.hierarchy_text = std::string(text.substr(0, hierarchy.motion_begin));
   const size_t first_end = text.find('\n');
   file.crlf = first_end != std::string_view::npos && first_end > 0 && text[first_end - 1] == '\r';
@@ -172,6 +173,8 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   const double declared = ReadFrameCount(&cursor);
   file.motion.frame_time = SnappedFrameTime(ReadFrameTime(&cursor, &file.frame_time_text));
   ReadFrames(&cursor, declared, &file);
+  bvh::CheckSecondOffsets(hierarchy, name, &file);
+  bvh::AddOffsetsToDisplacements(&file);
   WarnOfDuplicateNames(&file);
   return file;
 }

@@ -2,7 +2,8 @@
 // reader takes every dialect that can be read in only one way, and refuses the rest with the line.
 //
 // Conventions: R = R_first * R_second * R_third over a joint's rotation channels in file order
-// (degrees). A position channel replaces its axis of the joint's OFFSET, it is not added to it.
+// (degrees). A position channel replaces its axis of the joint's OFFSET, unless the file as a whole
+// can only mean that it is added (BvhFile::adds_offset).
 #pragma once
 
 #include <string>
@@ -19,6 +20,7 @@ inline constexpr int kFirstRotationChannel = 3;
 struct BvhFile {
   RigMotion motion;                        // frame time snapped, see SnappedFrameTime
   std::vector<std::vector<int>> channels;  // kinds per joint, in file order
+  std::vector<bool> adds_offset;           // [joints] position channels are added to its OFFSET
   std::string hierarchy_text;              // everything before "MOTION", byte for byte
   std::string frame_time_text;             // as written
   bool crlf = false;                       // the first line ends in CR LF
@@ -40,6 +42,10 @@ BvhFile ParseBvh(std::string_view text, const std::string& name);
 // `offset_scale` multiplies the OFFSETs; frames are written as given.
 // World positions come back within 1e-6 of the figure's size.
 std::string FormatBvh(const BvhFile& original, const RigMotion& motion, double offset_scale = 1.0);
+
+// The file with some of its joints alone, `joints` in order and with all that carry them: what
+// FormatBvh writes has the others no more.
+BvhFile CutBvh(const BvhFile& file, const std::vector<int>& joints);
 
 // Writers round the frame time: a rate within 2e-4 of an integer (120.005, 29.9997) is that
 // integer. Others (23.976) stay. In and out: s.

@@ -51,6 +51,7 @@ class HierarchyReader {
   };
 
   void Open(int parent) {
+    const size_t begin = cursor_.position() - (parent < 0 ? 4 : 5);  // ROOT, JOINT
     const std::string_view name = cursor_.RestAsName();
     if (name.empty()) cursor_.Fail("a joint without a name", "a name on the same line");
     if (out_.rig.joints.size() >= kMaxJoints) {
@@ -65,6 +66,9 @@ class HierarchyReader {
     joint.parent = parent;
     out_.rig.joints.push_back(std::move(joint));
     out_.channels.emplace_back();
+    out_.joint_text.emplace_back(begin, begin);
+    out_.second_offset.emplace_back();
+    out_.offset_line.push_back(0);
     open_.push_back({out_.rig.num_joints() - 1});
   }
 
@@ -73,7 +77,8 @@ class HierarchyReader {
     const std::string_view word = cursor_.Next();
     if (SameWord(word, "OFFSET")) {
       if (joint.has_offset) cursor_.Fail("a second OFFSET", "one per joint");
-      out_.rig.joints[joint.joint].offset = ReadOffset();
+      out_.rig.joints[joint.joint].offset = ReadOffset(&out_.second_offset[joint.joint]);
+      out_.offset_line[joint.joint] = cursor_.line();
       joint.has_offset = true;
     } else if (SameWord(word, "CHANNELS")) {
       // Numbers of a frame are in the order of these lines, hence of the joints.
@@ -82,7 +87,9 @@ class HierarchyReader {
       const std::vector<int> kinds = ReadChannels();
       const auto is_position = [](int kind) { return kind < kFirstRotationChannel; };
       // No channel stands twice, so three are all axes.
-      out_.rig.joints[joint.joint].translates = std::ranges::count_if(kinds, is_position) == 3;
+      RigJoint& rig_joint = out_.rig.joints[joint.joint];
+      rig_joint.translates = std::ranges::count_if(kinds, is_position) == 3;
+      rig_joint.can_translate = rig_joint.translates;
       out_.channels[joint.joint] = kinds;
       joint.has_channels = true;
     } else if (SameWord(word, "JOINT")) {
@@ -95,6 +102,7 @@ class HierarchyReader {
         cursor_.Fail("the end of joint " + QuotedWord(out_.rig.joints[joint.joint].name),
                      "its OFFSET");
       }
+      out_.joint_text[joint.joint].second = cursor_.position();
       open_.pop_back();
     } else {
       cursor_.FailAtToken(word, "OFFSET, CHANNELS, JOINT, End Site or }");
@@ -108,7 +116,7 @@ class HierarchyReader {
     if (const auto word = cursor_.Next(); !SameWord(word, "OFFSET")) {
       cursor_.FailAtToken(word, "OFFSET of the End Site");
     }
-    const Vec3 point = ReadOffset();
+    const Vec3 point = ReadOffset(nullptr);
     if (const auto word = cursor_.Next(); word != "}") cursor_.FailAtToken(word, "}");
     if (out_.rig.joints[joint].end_site) {
       out_.warnings.push_back(fmt::format("line {}: joint {} has a second End Site, ignored",
@@ -118,21 +126,40 @@ class HierarchyReader {
     }
   }
 
-  Vec3 ReadOffset() {
+  // Some writers (NVIDIA's SOMA) put a joint's rotation at rest after its place: into `second`.
+  Vec3 ReadOffset(std::optional<Vec3>* second) {
     Vec3 offset = Vec3::Zero();
     for (int axis = 0; axis < 3; ++axis) {
-      std::string_view word = cursor_.Next();
-      const size_t end = cursor_.position();
-      const size_t begin = end - word.size();
-      while (word.ends_with(',')) word.remove_suffix(1);
-      offset[axis] = cursor_.Number(word, "three numbers after OFFSET");
-      out_.offset_numbers.emplace_back(begin, begin + word.size());
+      offset[axis] = ReadOffsetNumber();
+      out_.offset_numbers.push_back(last_number_);
     }
-    double unused = 0;
-    if (ParseNumber(cursor_.Peek(), &unused) != NumberFault::kNotANumber) {
-      cursor_.Fail("more than three numbers after OFFSET", "three");
+    if (!AtNumber()) return offset;
+    constexpr const char* kExpected = "three, or six of a place and a rotation";
+    Vec3 more = Vec3::Zero();
+    int count = 0;
+    for (; AtNumber(); ++count) {
+      const double number = ReadOffsetNumber();
+      if (count < 3) more[count] = number;
     }
+    if (second == nullptr || count != 3) {
+      cursor_.Fail(fmt::format("{} numbers after OFFSET", 3 + count),
+                   second == nullptr ? "three" : kExpected);
+    }
+    *second = more;
     return offset;
+  }
+
+  bool AtNumber() {
+    double unused = 0;
+    return ParseNumber(cursor_.Peek(), &unused) != NumberFault::kNotANumber;
+  }
+
+  double ReadOffsetNumber() {
+    std::string_view word = cursor_.Next();
+    const size_t begin = cursor_.position() - word.size();
+    while (word.ends_with(',')) word.remove_suffix(1);
+    last_number_ = {begin, begin + word.size()};
+    return cursor_.Number(word, "three numbers after OFFSET");
   }
 
   std::vector<int> ReadChannels() {
@@ -170,6 +197,7 @@ class HierarchyReader {
 
   Cursor& cursor_;
   Hierarchy out_;
+  std::pair<size_t, size_t> last_number_;
   std::vector<OpenJoint> open_;
 };
 

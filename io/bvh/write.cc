@@ -30,17 +30,20 @@ void AppendNumber(double value, std::string* out) {
 }
 
 // One frame's numbers; `angles` are each joint's of the frame before, and are replaced.
-void AppendFrame(const BvhFile& original, const RigFrame& frame, std::vector<Vec3>* angles,
-                 std::string* out) {
+void AppendFrame(const BvhFile& original, const RigFrame& frame, double offset_scale,
+                 std::vector<Vec3>* angles, std::string* out) {
   for (size_t j = 0; j < original.channels.size(); ++j) {
     const std::array<int, 3> axes = RotationAxes(original.channels[j]);
     Vec3& triple = (*angles)[j];
     triple = EulerAngles(frame.rotation[j].normalized().toRotationMatrix(), axes, triple);
+    Vec3 position = frame.translation[j];
+    if (!original.adds_offset.empty() && original.adds_offset[j]) {
+      position -= offset_scale * original.motion.rig.joints[j].offset;
+    }
     int next_angle = 0;
     for (int kind : original.channels[j]) {
       if (out->back() != '\n') out->push_back(' ');
-      AppendNumber(kind < kFirstRotationChannel ? frame.translation[j][kind]
-                                                : triple[next_angle++] / kDegree,
+      AppendNumber(kind < kFirstRotationChannel ? position[kind] : triple[next_angle++] / kDegree,
                    out);
     }
   }
@@ -76,7 +79,7 @@ std::string FormatBvh(const BvhFile& original, const RigMotion& motion, double o
                      frame_time, end);
   std::vector<Vec3> angles(original.channels.size(), Vec3::Zero());
   for (const RigFrame& frame : motion.frames) {
-    AppendFrame(original, frame, &angles, &out);
+    AppendFrame(original, frame, offset_scale, &angles, &out);
     out += end;
   }
   return out;

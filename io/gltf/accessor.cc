@@ -80,6 +80,10 @@ GltfAccessors::Items GltfAccessors::Locate(int accessor, int view_index, size_t 
     Fail(accessor, "it has no buffer view");
   }
   const tinygltf::BufferView& view = model_.bufferViews[view_index];
+  if (!view.extensions.empty()) {
+    throw InputError(fmt::format("{}: its data are compressed ({}): export it uncompressed", name_,
+                                 view.extensions.begin()->first));
+  }
   const std::vector<unsigned char>& data = model_.buffers[view.buffer].data;
   const size_t stride = packed || view.byteStride == 0 ? item_bytes : view.byteStride;
   // In this order no sum or product can overflow.

@@ -47,9 +47,47 @@ std::vector<int> GroupSkins(const LoadedGltf& gltf, const std::string& name) {
   return group;
 }
 
+// Of a skin: the joint that carries the others.
+int TopJoint(const LoadedGltf& gltf, int skin) {
+  const std::vector<int>& joints = gltf.model.skins[skin].joints;
+  for (const int n : gltf.order) {
+    if (std::find(joints.begin(), joints.end(), n) != joints.end()) return n;
+  }
+  return -1;
+}
+
+// "#figure=0 (Hips), #figure=1 (B_Hips)".
+std::string FigureList(const LoadedGltf& gltf, const std::vector<int>& group) {
+  std::string list;
+  int number = 0;
+  for (const int first : std::set<int>(group.begin(), group.end())) {
+    const int top = TopJoint(gltf, first);
+    list += fmt::format("{}#figure={}", number > 0 ? ", " : "", number);
+    if (top >= 0) list += " (" + Printable(gltf.model.nodes[top].name) + ")";
+    if (++number == 12) return list + ", ...";
+  }
+  return list;
+}
+
+int GroupOfFigure(const LoadedGltf& gltf, const std::vector<int>& group, const std::string& figure,
+                  const std::string& name) {
+  for (size_t s = 0; s < group.size(); ++s) {
+    const int top = TopJoint(gltf, static_cast<int>(s));
+    if (gltf.model.skins[s].name == figure || (top >= 0 && gltf.model.nodes[top].name == figure)) {
+      return group[s];
+    }
+  }
+  int number = 0;
+  for (const int first : std::set<int>(group.begin(), group.end())) {
+    if (std::to_string(number++) == figure) return first;
+  }
+  throw InputError(fmt::format("{}: no figure \"{}\", expected one of {}", name, Printable(figure),
+                               FigureList(gltf, group)));
+}
+
 }  // namespace
 
-std::vector<int> CharacterSkins(const LoadedGltf& gltf, const std::string& select,
+std::vector<int> CharacterSkins(const LoadedGltf& gltf, const GltfSelect& select,
                                 const std::vector<int>& humanoid, const std::string& name) {
   const std::vector<tinygltf::Skin>& skins = gltf.model.skins;
   const std::vector<int> group = GroupSkins(gltf, name);
@@ -63,20 +101,22 @@ std::vector<int> CharacterSkins(const LoadedGltf& gltf, const std::string& selec
       break;
     }
   }
-  if (!select.empty()) {
+  if (!select.skin.empty()) {
     for (size_t s = 0; s < skins.size() && wanted < 0; ++s) {
-      if (skins[s].name == select) wanted = group[s];
+      if (skins[s].name == select.skin) wanted = group[s];
     }
     for (size_t s = 0; s < skins.size() && wanted < 0; ++s) {
-      if (std::to_string(s) == select) wanted = group[s];
+      if (std::to_string(s) == select.skin) wanted = group[s];
     }
     if (wanted < 0) {
       throw InputError(
-          fmt::format("{}: no skin \"{}\", expected {}", name, Printable(select),
+          fmt::format("{}: no skin \"{}\", expected {}", name, Printable(select.skin),
                       skins.empty() ? "none: the file has no skin" : "one of " + list));
     }
   } else if (groups.size() == 1) {
     wanted = *groups.begin();
+  } else if (groups.size() > 1 && !select.figure.empty()) {
+    wanted = GroupOfFigure(gltf, group, select.figure, name);
   } else if (groups.size() > 1) {
     for (size_t s = 0; s < skins.size() && wanted < 0; ++s) {
       for (const int joint : skins[s].joints) {
@@ -84,8 +124,8 @@ std::vector<int> CharacterSkins(const LoadedGltf& gltf, const std::string& selec
       }
     }
     if (wanted < 0) {
-      throw InputError(
-          fmt::format("{}: {} characters, select one by its skin: {}", name, groups.size(), list));
+      throw InputError(fmt::format("{}: {} characters, select one by its skin: {}; or as {}", name,
+                                   groups.size(), list, FigureList(gltf, group)));
     }
   }
   std::vector<int> out;

@@ -2,9 +2,10 @@
 // VRMA.
 //
 // A file's node tree becomes a rig: the joints of one character's skins, the nodes between them,
-// animated nodes above and below them, and what hangs below and carries no mesh. Everything still
-// above is folded into the roots, scales into the translations, so that the rig is rigid and in
-// metres, Y up.
+// nodes above and below them that are animated or scaled unevenly, and what hangs below and carries
+// no mesh. Everything still above is folded into the roots, even scales into the translations, so
+// that the rig is in metres, Y up. It is rigid unless its frames have scales: those that are uneven
+// or change, as shares of the folded ones.
 #pragma once
 
 #include <optional>
@@ -20,22 +21,25 @@ namespace retarget::io {
 struct GltfSelect {
   std::string animation;
   std::string skin;
+  std::string figure = {};     // of several characters: by any of its names, or by number
   bool any_animation = false;  // of several, none of them selected, the first
   bool at_rest = false;        // the character alone, one frame, whatever animations there are
 };
 
 // What stands behind a joint of the rig: its transform in metres is
-//   translation = origin + turn (stretch .* t),  rotation = turn * q
-// of the node's own t and q. `origin` and `turn` are those of the folded nodes above a root.
+//   translation = origin + turn (stretch .* t),  rotation = turn * q,  scale = s / size
+// of the node's own t, q and s. `origin` and `turn` are those of the folded nodes above a root.
 struct GltfJoint {
   int node = -1;               // index in the file
   Vec3 origin = Vec3::Zero();  // m
   Quat turn = Quat::Identity();
-  Vec3 stretch = Vec3::Ones();           // m per unit
+  Vec3 stretch = Vec3::Ones();           // m per unit, even
   Vec3 rest_translation = Vec3::Zero();  // the node's own t, q and scale, whatever animates them
   Quat rest_rotation = Quat::Identity();
   Vec3 rest_scale = Vec3::Ones();
-  Vec3 scale = Vec3::Ones();  // in the animation
+  Vec3 scale = Vec3::Ones();  // in the animation, of its first key
+  double size = 1;            // of the scale, the part that is folded into what hangs below
+  bool changes_scale = false;
   bool has_translation_track = false;
 };
 
@@ -46,6 +50,7 @@ struct GltfClip {
   std::vector<double> key_times;
   std::string animation;           // its name; empty for a character at rest
   std::vector<int> skins;          // the character's, indices in the file
+  bool is_one_of_several = false;  // skinned characters
   std::optional<JointMap> map;     // VRM and VRMA say which bone is which; absent bones are -1
   bool faces_minus_z = false;      // as VRM 0.x does; everything else should face +Z
   std::vector<std::string> notes;  // what was tolerated or left aside, one line each
@@ -79,6 +84,10 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
 // data in the file. Throws InputError where a matrix cannot be split up.
 std::string FormatGltf(const GltfClip& original, const RigMotion& motion, double fps = 0,
                        const std::string& animation_name = "retargeted");
+
+// The clip with some of its joints alone, `joints` in order and with all that carry them: what
+// FormatGltf writes moves only these.
+GltfClip CutGltf(const GltfClip& clip, const std::vector<int>& joints);
 
 // Radius of a capsule about each joint's bone (m): the upper quartile of the distances of the
 // joint's own vertices (those it has most weight of) from its bone. A quarter of the skin then lies

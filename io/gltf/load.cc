@@ -29,18 +29,48 @@ json ParseJson(std::string_view text, const std::string& name) {
   }
 }
 
-// Required extensions without which the numbers of a motion cannot be read.
-void RefuseCompression(const json& document, const std::string& name) {
-  const auto required = document.find("extensionsRequired");
-  if (required == document.end() || !required->is_array()) return;
-  for (const json& extension : *required) {
-    if (!extension.is_string()) continue;
-    const std::string text = extension;
-    if (text.ends_with("_meshopt_compression")) {
-      throw InputError(fmt::format("{}: its data are compressed ({}): export it uncompressed", name,
-                                   Printable(text)));
-    }
+bool Lists(const json& document, const char* key, const std::string& extension) {
+  const auto list = document.find(key);
+  return list != document.end() && list->is_array() &&
+         std::find(list->begin(), list->end(), json(extension)) != list->end();
+}
+
+constexpr const char* kMeshCompression = "KHR_draco_mesh_compression";
+constexpr const char* kDataCompressions[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+std::string CompressionOf(const json& document) {
+  for (const char* extension : kDataCompressions) {
+    if (Lists(document, "extensionsRequired", extension)) return extension;
   }
+  return Lists(document, "extensionsUsed", kMeshCompression) ? kMeshCompression : "";
+}
+
+bool HasExtension(const json& object, const std::string& extension) {
+  if (!object.is_object()) return false;
+  const auto extensions = object.find("extensions");
+  return extensions != object.end() && extensions->is_object() && extensions->contains(extension);
+}
+
+// Which views of a document only that extension can read. Their own buffer holds nothing then, and
+// need not exist: a byte takes its place in `checked`.
+std::vector<bool> CompressedViews(const json& document, const std::string& compression,
+                                  json* checked) {
+  std::vector<bool> compressed;
+  if (compression.empty() || compression == kMeshCompression) return compressed;
+  for (const json& view : document.value("bufferViews", json::array())) {
+    compressed.push_back(HasExtension(view, compression));
+    if (!compressed.back()) continue;
+    json& buffer =
+        (*checked)["buffers"]
+                  [(*checked)["bufferViews"][compressed.size() - 1]["buffer"].get<size_t>()];
+    const bool fallback = HasExtension(
+        document["buffers"]
+                [(*checked)["bufferViews"][compressed.size() - 1]["buffer"].get<size_t>()],
+        compression);
+    if (fallback)
+      buffer = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
+  }
+  return compressed;
 }
 
 // The loader's only way to disk: everything else is "not found".
@@ -133,10 +163,14 @@ bool IsFileInside(const std::string& path, const std::string& folder) {
 LoadedGltf LoadGltf(std::string_view bytes, const std::string& name, const std::string& folder) {
   const GltfContainer container = SplitGltf(bytes, name);
   const json document = ParseJson(container.json, name);
-  const std::string checked = CheckedGltf(document, name).dump();
-  RefuseCompression(document, name);
+  json checked = CheckedGltf(document, name);
   LoadedGltf out;
-  out.model = LoadModel(checked, container, name, folder);
+  out.compression = CompressionOf(document);
+  const std::vector<bool> compressed = CompressedViews(document, out.compression, &checked);
+  out.model = LoadModel(checked.dump(), container, name, folder);
+  for (size_t v = 0; v < compressed.size() && v < out.model.bufferViews.size(); ++v) {
+    if (compressed[v]) out.model.bufferViews[v].extensions[out.compression] = tinygltf::Value();
+  }
   SortNodes(name, &out);
   const auto extensions = document.find("extensions");
   out.extensions = extensions == document.end() ? "{}" : extensions->dump();

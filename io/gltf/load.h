@@ -17,6 +17,9 @@ struct LoadedGltf {
   std::string extensions;   // the document's extensions, as JSON; "{}" where it has none
   std::vector<int> parent;  // [nodes] -1 for a root; the hierarchy is known to be a forest
   std::vector<int> order;   // [nodes] parents before children, each branch in one piece
+  // The extension that compresses meshes or all data, empty where none does. Buffer views that only
+  // it can read have it among their extensions.
+  std::string compression;
 };
 
 // `folder` holds external buffers; a path that leads out of it is refused, and so is every path

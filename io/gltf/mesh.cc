@@ -31,13 +31,19 @@ double DistanceFromBone(const Vec3& p, const Vec3& end) {
 class VertexCollector {
  public:
   VertexCollector(const LoadedGltf& gltf, const GltfClip& clip)
-      : model_(gltf.model), clip_(clip), accessors_(gltf.model, clip.name) {
+      : model_(gltf.model),
+        clip_(clip),
+        compression_(gltf.compression),
+        accessors_(gltf.model, clip.name) {
     vertices_.resize(clip.joints.size());
     joint_of_node_.assign(model_.nodes.size(), -1);
     for (size_t j = 0; j < clip.joints.size(); ++j) {
       joint_of_node_[clip.joints[j].node] = static_cast<int>(j);
     }
   }
+
+  // Whether a mesh was left out because its data are compressed.
+  bool met_compressed() const { return met_compressed_; }
 
   // In the joints' own frames, in metres. [joints of the rig]
   std::vector<std::vector<Vec3>> Collect() {
@@ -60,7 +66,16 @@ class VertexCollector {
       return it == primitive.attributes.end() ? -1 : it->second;
     };
     const int place = attribute("POSITION");
-    if (place < 0 || model_.accessors[place].bufferView < 0) return;  // nothing, or compressed
+    if (place < 0) return;
+    for (const auto& [key, accessor] : primitive.attributes) {
+      if (!IsSkinning(key)) continue;
+      const int view = model_.accessors[accessor].bufferView;
+      // Draco's accessors may have no view of their own.
+      if (view < 0 ? compression_.empty() : model_.bufferViews[view].extensions.empty()) continue;
+      met_compressed_ = true;
+      return;
+    }
+    if (model_.accessors[place].bufferView < 0) return;
     const std::vector<double> position = accessors_.Read(place, TINYGLTF_TYPE_VEC3);
     const size_t count = position.size() / 3;
     std::vector<int> strongest(count, -1);
@@ -89,8 +104,14 @@ class VertexCollector {
     }
   }
 
+  static bool IsSkinning(const std::string& key) {
+    return key == "POSITION" || key.starts_with("JOINTS_") || key.starts_with("WEIGHTS_");
+  }
+
   const tinygltf::Model& model_;
   const GltfClip& clip_;
+  const std::string& compression_;
+  bool met_compressed_ = false;
   GltfAccessors accessors_;
   std::vector<int> joint_of_node_;
   std::vector<std::vector<Vec3>> vertices_;
@@ -99,7 +120,14 @@ class VertexCollector {
 }  // namespace
 
 void FindSkinTops(const LoadedGltf& gltf, GltfClip* clip) {
-  const std::vector<std::vector<Vec3>> vertices = VertexCollector(gltf, *clip).Collect();
+  VertexCollector collector(gltf, *clip);
+  const std::vector<std::vector<Vec3>> vertices = collector.Collect();
+  if (collector.met_compressed()) {
+    clip->notes.push_back(fmt::format(
+        "the mesh is compressed{}: the width of the skin cannot be read, and capsules are as wide "
+        "as tabulated where they would follow it; export it uncompressed",
+        gltf.compression.empty() ? "" : " (" + gltf.compression + ")"));
+  }
   Rig& rig = clip->motion.rig;
   RigFrame rest;
   for (const RigJoint& joint : rig.joints) {

@@ -13,6 +13,7 @@
 #include "io/gltf/vrm.h"
 #include "io/text/quoted.h"
 #include "io/text/read_file.h"
+#include "model/rig/tree.h"
 
 namespace retarget::io {
 namespace {
@@ -20,9 +21,10 @@ namespace {
 // A bound that no real file reaches, so that a damaged one cannot ask for all memory.
 constexpr size_t kMostJointFrames = 20'000'000;
 
-// The selected animation, or -1 where the file has none.
-int ChooseAnimation(const tinygltf::Model& model, const GltfSelect& wanted, const std::string& name,
-                    std::vector<std::string>* notes) {
+// The selected animation, or -1 where the file has none. `first`: of several, none of them
+// selected, the format means the first.
+int ChooseAnimation(const tinygltf::Model& model, const GltfSelect& wanted, bool first,
+                    const std::string& name, std::vector<std::string>* notes) {
   const std::string& select = wanted.animation;
   const std::vector<tinygltf::Animation>& animations = model.animations;
   constexpr size_t kShown = 12;
@@ -32,7 +34,7 @@ int ChooseAnimation(const tinygltf::Model& model, const GltfSelect& wanted, cons
   }
   if (animations.size() > kShown) list += ", ...";
   if (select.empty()) {
-    if (animations.size() > 1 && !wanted.any_animation) {
+    if (animations.size() > 1 && !wanted.any_animation && !first) {
       throw InputError(
           fmt::format("{}: {} animations, select one: {}", name, animations.size(), list));
     }
@@ -61,13 +63,18 @@ const GltfTrack* Find(const std::map<int, GltfTrack>& tracks, int node) {
 
 // Fills frames and key times.
 void SampleTracks(const GltfTracks& tracks, GltfClip* clip) {
-  std::vector<const GltfTrack*> translation, rotation, used;
+  std::vector<const GltfTrack*> translation, rotation, scale, used;
+  bool rigid = true;
   for (const GltfJoint& joint : clip->joints) {
     translation.push_back(Find(tracks.translation, joint.node));
     rotation.push_back(Find(tracks.rotation, joint.node));
-    for (const GltfTrack* track : {translation.back(), rotation.back()}) {
+    scale.push_back(joint.changes_scale ? Find(tracks.scale, joint.node) : nullptr);
+    for (const GltfTrack* track : {translation.back(), rotation.back(), scale.back()}) {
       if (track != nullptr) used.push_back(track);
     }
+    constexpr double kRounding = 1e-5;
+    const double left = (joint.scale.array() - joint.size).abs().maxCoeff();
+    rigid = rigid && !joint.changes_scale && left <= kRounding * joint.size;
   }
   FrameTimes frames = ChooseFrameTimes(used, clip->name);
   if (frames.times.size() * clip->joints.size() > kMostJointFrames) {
@@ -83,6 +90,10 @@ void SampleTracks(const GltfTracks& tracks, GltfClip* clip) {
       const Quat q = rotation[j] ? rotation[j]->Rotation(time) : joint.rest_rotation;
       frame.translation.push_back(joint.origin + joint.turn * joint.stretch.cwiseProduct(t));
       frame.rotation.push_back((joint.turn * q).normalized());
+      if (!rigid) {
+        const Vec3 s = scale[j] ? scale[j]->Translation(time) : joint.scale;
+        frame.scale.push_back(s / joint.size);
+      }
       // Tame numbers can multiply to wild ones.
       if (!frame.translation.back().allFinite()) {
         throw InputError(fmt::format("{}: joint {} leaves all bounds", clip->name,
@@ -132,18 +143,21 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
   GltfAccessors accessors(model, clip.name);
   // Of a bare skeleton the animation tells what the joints are, even where it is not played.
   const bool any = select.at_rest && select.animation.empty() && !model.animations.empty();
-  const int animation = any ? 0 : ChooseAnimation(model, select, name, &clip.notes);
+  const int animation =
+      any ? 0 : ChooseAnimation(model, select, bones.is_animation, name, &clip.notes);
   GltfTracks tracks;
   if (animation >= 0 && !(select.at_rest && !model.skins.empty())) {
     if (!select.at_rest) clip.animation = model.animations[animation].name;
     tracks = ReadTracks(model.animations[animation], &accessors, clip.name, &clip.notes);
   }
-  const std::vector<int> skins = CharacterSkins(gltf, select.skin, humanoid, name);
-  if (!select.skin.empty() && !SharesJoint(model, skins, humanoid)) {
+  const std::vector<int> skins = CharacterSkins(gltf, select, humanoid, name);
+  if ((!select.skin.empty() || !select.figure.empty()) && !skins.empty() &&
+      !SharesJoint(model, skins, humanoid)) {
     humanoid.clear();  // somebody else was selected
     bones = VrmBones();
   }
   clip.skins = skins;
+  clip.is_one_of_several = !skins.empty() && skins.size() < model.skins.size();
   BuildSkeleton(gltf, skins, humanoid, tracks, &accessors, &clip);
   if (clip.joints.empty()) {
     throw InputError(name + (animation < 0 ? ": no skin and no animation, expected a character"
@@ -161,6 +175,15 @@ GltfClip ParseGltf(std::string bytes, const std::string& name, const std::string
   }
   FindSkinTops(gltf, &clip);
   return clip;
+}
+
+GltfClip CutGltf(const GltfClip& clip, const std::vector<int>& joints) {
+  GltfClip out = clip;
+  out.motion = MotionOfJoints(clip.motion, joints);
+  out.joints.clear();
+  for (const int j : joints) out.joints.push_back(clip.joints[j]);
+  out.map.reset();  // of the file's one human, which has no others beside it
+  return out;
 }
 
 GltfClip ReadGltf(const std::string& path, const GltfSelect& select) {

@@ -14,7 +14,9 @@ namespace {
 
 using Eigen::Matrix4d;
 
-constexpr double kUniform = 1e-3;  // relative difference of scales that is only rounding
+constexpr double kUniform = 1e-5;  // relative difference of scales that is only rounding
+
+constexpr double kNothing = 1e-12;
 
 double Mean(const Vec3& scale) { return scale.sum() / 3; }
 
@@ -81,8 +83,20 @@ class SkeletonBuilder {
     return tracks_.translation.contains(node) || tracks_.rotation.contains(node);
   }
 
-  // The seeds (without any: what is moved), moved nodes above and below them, all between, and the
-  // meshless branches below.
+  // Whether a node's scale changes in the animation.
+  bool ChangesScale(int node) const {
+    const auto track = tracks_.scale.find(node);
+    return track != tracks_.scale.end() && !track->second.IsConstant(kUniform);
+  }
+
+  // Whether a node does to what hangs from it more than move, turn and enlarge it for good.
+  bool HasShape(int node) const {
+    const GltfTransform own = TransformOf(model_, node, clip_.name);
+    return ChangesScale(node) || !IsUniform(ScaleOf(node, own.scale));
+  }
+
+  // The seeds (without any: what is moved), nodes above and below them that are moved or scaled
+  // unevenly, all between, and the meshless branches below.
   void Choose(bool bare) {
     const size_t count = model_.nodes.size();
     std::vector<bool> has_mesh(count), below(count);
@@ -93,7 +107,7 @@ class SkeletonBuilder {
       const bool seed = bare ? IsMoved(n) : seeds_.contains(n);
       leads_[n] = leads_[n] || seed;
       has_mesh[n] = has_mesh[n] || model_.nodes[n].mesh >= 0;
-      chosen_[n] = seed || (leads_[n] && IsMoved(n));
+      chosen_[n] = seed || (leads_[n] && (IsMoved(n) || HasShape(n)));
       if (parent < 0) continue;
       leads_[parent] = leads_[parent] || leads_[n];
       has_mesh[parent] = has_mesh[parent] || has_mesh[n];
@@ -122,10 +136,12 @@ class SkeletonBuilder {
     joint.rest_rotation = own.rotation;
     joint.rest_scale = own.scale;
     joint.scale = ScaleOf(n, own.scale);
+    joint.changes_scale = ChangesScale(n);
+    // What is left of the scale, uneven or of a frame, is in the frames.
+    joint.size = Mean(joint.scale) > kNothing ? Mean(joint.scale) : 1;
     joint.has_translation_track = tracks_.translation.contains(n);
     if (parent >= 0) {
-      // Below an uneven scale the mean goes on: exact for the children, which is what occurs.
-      joint.stretch = Mean(clip_.joints[parent].stretch) * clip_.joints[parent].scale;
+      joint.stretch = clip_.joints[parent].size * clip_.joints[parent].stretch;
     } else if (up >= 0) {
       joint.origin = frame_[up].origin;
       joint.turn = frame_[up].turn;
@@ -135,6 +151,7 @@ class SkeletonBuilder {
     out.name = model_.nodes[n].name;
     out.parent = parent;
     out.translates = joint.has_translation_track;
+    out.can_translate = true;
     const GltfTransform rest = Rest(n, parent, own);
     out.offset = joint.origin + joint.turn * joint.stretch.cwiseProduct(rest.translation);
     out.rest_rotation = (joint.turn * rest.rotation).normalized();
@@ -147,25 +164,23 @@ class SkeletonBuilder {
     const int up = gltf_.parent[n];
     const Frame above = up >= 0 ? frame_[up] : Frame();
     const GltfTransform t = TransformOf(model_, n, clip_.name);
-    const Vec3 scale = ScaleOf(n, t.scale);
-    if (!IsUniform(scale)) ++uneven_scales_;
     Frame out;
     out.origin = above.origin + above.turn * above.stretch.cwiseProduct(t.translation);
     out.turn = (above.turn * t.rotation).normalized();
-    out.stretch = Mean(above.stretch) * scale;
+    out.stretch = Mean(ScaleOf(n, t.scale)) * above.stretch;
     return out;
   }
 
-  // In the animation: a constant track's, else the node's own.
-  Vec3 ScaleOf(int n, const Vec3& own) {
-    Vec3 scale = own;
+  // At the beginning of the animation: the track's first, else the node's own.
+  Vec3 ScaleOf(int n, const Vec3& own) const {
     const auto track = tracks_.scale.find(n);
-    if (track != tracks_.scale.end()) {
-      constexpr double kSteady = 1e-3;
-      if (!track->second.IsConstant(kSteady)) ++animated_scales_;
-      scale = Vec3::Map(track->second.Key(0));
+    const bool animated = track != tracks_.scale.end();
+    const Vec3 scale = animated ? Vec3(Vec3::Map(track->second.Key(0))) : own;
+    double least = scale.minCoeff();
+    for (size_t k = 0; animated && k < track->second.times.size(); ++k) {
+      least = std::min(least, Vec3(Vec3::Map(track->second.Key(k))).minCoeff());
     }
-    if (scale.minCoeff() < 0) {
+    if (least < 0) {
       throw InputError(
           fmt::format("{}: nodes[{}]: a negative scale mirrors the rig below it", clip_.name, n));
     }
@@ -226,18 +241,20 @@ class SkeletonBuilder {
   }
 
   void NoteScales() {
-    for (size_t j = 0; j < clip_.joints.size(); ++j) {
-      const bool leaf = model_.nodes[clip_.joints[j].node].children.empty();
-      if (!leaf && !IsUniform(clip_.joints[j].scale)) ++uneven_scales_;
+    int uneven = 0, changing = 0;
+    for (const GltfJoint& joint : clip_.joints) {
+      if (model_.nodes[joint.node].children.empty()) continue;
+      uneven += IsUniform(joint.scale) ? 0 : 1;
+      changing += joint.changes_scale ? 1 : 0;
     }
-    if (uneven_scales_ > 0) {
-      clip_.notes.push_back(
-          fmt::format("{} nodes are scaled unevenly: what hangs below their children is not exact",
-                      uneven_scales_));
+    constexpr const char* kBones =
+        "bones below change their lengths, and may get keys of "
+        "translation in what is written";
+    if (uneven > 0) {
+      clip_.notes.push_back(fmt::format("nodes that are scaled unevenly: {}; {}", uneven, kBones));
     }
-    if (animated_scales_ > 0) {
-      clip_.notes.push_back(fmt::format(
-          "{} nodes change their scale: the first key's is used throughout", animated_scales_));
+    if (changing > 0) {
+      clip_.notes.push_back(fmt::format("nodes that change their scale: {}; {}", changing, kBones));
     }
   }
 
@@ -251,7 +268,6 @@ class SkeletonBuilder {
   std::vector<bool> leads_;                // [nodes] to a seed
   std::vector<Frame> frame_;               // [nodes] of those above the rig
   std::vector<int> joint_of_node_;
-  int uneven_scales_ = 0, animated_scales_ = 0;
 };
 
 }  // namespace

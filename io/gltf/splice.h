@@ -23,6 +23,9 @@ class JsonSplice {
   // The value of an object's member, the last one where several have the key.
   std::optional<Span> Member(Span object, std::string_view key) const;
   std::vector<Span> Elements(Span array) const;
+  std::string Text(Span span) const {
+    return std::string(text_.substr(span.begin, span.end - span.begin));
+  }
 
   // Edits must not overlap. They are done by Finish.
   void Replace(Span value, std::string with);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 
 #include "io/text/quoted.h"
 
@@ -43,6 +44,7 @@ VrmBones ReadVrmBones(const std::string& extensions, int num_nodes, const std::s
     const json* humanoid = extension ? Member(*extension, "humanoid") : nullptr;
     const json* bones = humanoid ? Member(*humanoid, "humanBones") : nullptr;
     if (bones == nullptr) continue;
+    out.is_animation = key == std::string_view("VRMC_vrm_animation");
     if (bones->is_object()) {
       for (const auto& [bone, value] : bones->items()) add(key, bone, Member(value, "node"));
     } else if (bones->is_array()) {

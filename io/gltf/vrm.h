@@ -12,6 +12,7 @@ namespace retarget::io {
 struct VrmBones {
   std::map<std::string, int> node;  // by the bone's VRM name; empty: the file is no VRM
   bool faces_minus_z = false;       // VRM 0.x
+  bool is_animation = false;        // VRMA, whose motion is the file's first
 };
 
 // From the extensions of a document (JSON): VRMC_vrm (VRM 1.0), VRMC_vrm_animation (VRMA) or VRM

@@ -52,7 +52,11 @@ NodeKeys KeysOf(const GltfJoint& joint, size_t j, const std::vector<RigFrame>& f
     keys.rotation.push_back(q);
   }
   if (!moves) keys.translation.clear();
-  if ((joint.scale - joint.rest_scale).cwiseAbs().maxCoeff() > kStill) {
+  if (joint.changes_scale) {
+    for (const RigFrame& frame : frames) {
+      keys.scale.push_back(frame.scale.empty() ? joint.scale : Vec3(joint.size * frame.scale[j]));
+    }
+  } else if ((joint.scale - joint.rest_scale).cwiseAbs().maxCoeff() > kStill) {
     keys.scale.assign(frames.size(), joint.scale);
   }
   return keys;
@@ -165,6 +169,38 @@ std::optional<JsonSplice::Span> FindAnimation(const json& document, const std::s
   return std::nullopt;
 }
 
+// Players of a VRM animation take a file's first (VRMC_vrm_animation 1.0).
+bool PlaysFirstAnimation(const json& document) {
+  const auto extensions = document.find("extensions");
+  return extensions != document.end() && extensions->is_object() &&
+         extensions->contains("VRMC_vrm_animation");
+}
+
+// Puts an animation in the place of the one of that name, or after all; or, for players of the
+// first alone, before the others.
+void PutAnimation(const json& document, const std::string& name, const std::string& animation,
+                  JsonSplice* splice) {
+  const auto place = FindAnimation(document, name, *splice);
+  if (!PlaysFirstAnimation(document)) {
+    if (place) {
+      splice->Replace(*place, animation);
+    } else {
+      splice->Append("animations", animation);
+    }
+    return;
+  }
+  const auto array = splice->Member(splice->root(), "animations");
+  if (!array) {
+    splice->Append("animations", animation);
+    return;
+  }
+  std::string all = "[" + animation;
+  for (const JsonSplice::Span& other : splice->Elements(*array)) {
+    if (!place || other.begin != place->begin) all += "," + splice->Text(other);
+  }
+  splice->Replace(*array, all + "]");
+}
+
 // Key times (s) of the frames to write.
 std::vector<double> KeyTimes(const GltfClip& original, const RigMotion& motion, size_t count,
                              double frame_time) {
@@ -211,11 +247,7 @@ std::string FormatGltf(const GltfClip& original, const RigMotion& motion, double
 
   JsonSplice splice(container.json);
   SplitMatrices(original, document, &splice);
-  if (const auto place = FindAnimation(document, animation_name, splice)) {
-    splice.Replace(*place, writer.Animation(animation_name));
-  } else {
-    splice.Append("animations", writer.Animation(animation_name));
-  }
+  PutAnimation(document, animation_name, writer.Animation(animation_name), &splice);
   for (const std::string& accessor : writer.accessors()) splice.Append("accessors", accessor);
 
   const size_t buffers = SizeOf(document, "buffers");

@@ -76,6 +76,9 @@ struct ShapeMatch {
 };
 ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses);
 
+// Why a figure that was told by words alone is no human's; empty where it may be one.
+std::string ShapeFault(const Rig& rig, const std::vector<PosedRig>& poses, const JointMap& map);
+
 // Up to three joints of `rig` whose names come nearest to `wanted`, one of the project's names, as
 // `profile` would write it.
 std::vector<std::string> NearestNames(const Rig& rig, const std::string& wanted,

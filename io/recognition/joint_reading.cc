@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "io/recognition/figure_tree.h"
 #include "model/rig/tree.h"
 
 namespace retarget::io {
@@ -114,18 +115,23 @@ class NameMatcher {
     JointMap& map = match_.map;
     CheckSide(&map.left, "left");
     CheckSide(&map.right, "right");
-    const int hips = CommonAncestor(rig_, map.left.hip, map.right.hip);
-    const int arms = CommonAncestor(rig_, map.left.shoulder, map.right.shoulder);
-    map.root = CommonAncestor(rig_, hips, arms);
-    if (map.root < 0) {
+    const auto named_necks = [&](int root) {
+      std::vector<int> named;
+      for (const std::string& name : SplitWords(profile_.neck)) {
+        const int joint = index_.FindBelow(Name(name, ""), root);
+        if (joint >= 0) named.push_back(joint);
+      }
+      return named;
+    };
+    bool neck_named = false;
+    if (!ArrangeTrunk(rig_, named_necks, &map, &neck_named)) {
       match_.misplaced.push_back("arms and legs share no root");
       return;
     }
-    if (!DescendsFrom(rig_, map.head, map.root) || map.head == map.root) map.head = -1;
+    match_.score += neck_named ? 1 : 0;
     for (const int joint : {map.left.hip, map.right.hip}) {
       if (joint == map.root) match_.misplaced.push_back(Quote(joint) + " carries the other limbs");
     }
-    SplitTrunk();
     FindHeadTop();
   }
 
@@ -151,45 +157,6 @@ class NameMatcher {
     if (!DescendsFrom(rig_, s->shoulder, s->clavicle) || s->shoulder == s->clavicle) {
       s->clavicle = -1;
     }
-  }
-
-  // The neck begins at the first bone above all arms that the profile calls so, else at the first
-  // bone above all arms.
-  void SplitTrunk() {
-    JointMap& map = match_.map;
-    const auto fork = [&](const JointMap::Side& s) {  // carries the arm
-      return CommonAncestor(rig_, s.shoulder, map.head >= 0 ? map.head : map.right.shoulder);
-    };
-    int arms = std::max(fork(map.left), fork(map.right));
-    if (map.head < 0) arms = CommonAncestor(rig_, map.left.shoulder, map.right.shoulder);
-    std::vector<int> named;
-    for (const std::string& name : SplitWords(profile_.neck)) {
-      const int joint = index_.FindBelow(Name(name, ""), map.root);
-      if (joint >= 0) named.push_back(joint);
-    }
-    int top = map.head;
-    if (top < 0) {  // the last neck bone, else the bone that carries the arms
-      for (const int joint : named) {
-        if (DescendsFrom(rig_, joint, arms) && joint > top) top = joint;
-      }
-    }
-    std::vector<int> chain;
-    if (top >= 0) chain = Between(rig_, map.root, top);
-    if (map.head < 0 && top > map.root) chain.push_back(top);
-    if (top < 0 && arms > map.root) {
-      chain = Between(rig_, map.root, arms);
-      chain.push_back(arms);
-    }
-    auto neck = std::find_if(chain.begin(), chain.end(), [&](int j) {
-      return j > arms && std::find(named.begin(), named.end(), j) != named.end();
-    });
-    if (neck == chain.end()) {
-      neck = std::find_if(chain.begin(), chain.end(), [&](int j) { return j > arms; });
-    } else {
-      ++match_.score;
-    }
-    map.spine.assign(chain.begin(), neck);
-    map.neck.assign(neck, chain.end());
   }
 
   void FindHeadTop() {

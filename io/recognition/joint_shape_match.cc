@@ -240,7 +240,29 @@ bool TellSides(const Rig& rig, const std::vector<PosedRig>& poses, JointMap* map
   return true;
 }
 
+// Whether the trunk ever continues the legs, as a human's does and an animal's does not.
+bool TrunkContinuesLegs(const std::vector<PosedRig>& poses, const RigPoints& p) {
+  constexpr double kCosine = 0.5;
+  return std::any_of(poses.begin(), poses.end(), [&](const PosedRig& pose) {
+    const Vec3 trunk = At(pose, p.neck) - At(pose, p.root);
+    const Vec3 legs = At(pose, p.left.hip) + At(pose, p.right.hip) - At(pose, p.left.ankle) -
+                      At(pose, p.right.ankle);
+    return trunk.dot(legs) > kCosine * trunk.norm() * legs.norm();
+  });
+}
+
+constexpr const char* kAnimal =
+    "the trunk lies across the legs in every frame, as that of an animal does";
+
 }  // namespace
+
+std::string ShapeFault(const Rig& rig, const std::vector<PosedRig>& poses, const JointMap& map) {
+  const RigPoints points = FindPoints(rig, poses, map, FindChestBone(rig, poses, map));
+  if (!TrunkContinuesLegs(poses, points)) return kAnimal;
+  if (!HasHumanLimbs(poses, points))
+    return "arms, legs and trunk have not the lengths of a human's";
+  return "";
+}
 
 ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
   if (rig.joints.empty() || poses.empty()) return {};
@@ -254,7 +276,7 @@ ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
     match.map = std::move(map);
   }
   if (humans == 0 && matcher.met_animal()) {
-    match.refusal = "the trunk lies across the legs in every frame, as that of an animal does";
+    match.refusal = kAnimal;
   }
   if (humans != 1) match.map.reset();
   if (humans > 1) match.refusal = "the shape of its tree can be read in more than one way";

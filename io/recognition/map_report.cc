@@ -52,11 +52,17 @@ double Degrees(double angle) { return std::round(angle / kDegree * 10) / 10 + 0.
 
 }  // namespace
 
-std::string MapTable(const RigFacts& facts, const RigMotion& motion) {
+std::string MapTable(const RigFacts& facts, const RigMotion& motion,
+                     const std::vector<std::string>& figures) {
   std::string out;
   const auto row = [&](std::string_view key, const std::string& value) {
     if (!value.empty()) out += fmt::format("{:<16}{}\n", key, value);
   };
+  std::string listed;
+  for (size_t n = 0; n < figures.size(); ++n) {
+    listed += fmt::format("{}{} {}", n > 0 ? ", " : "", n, Printable(figures[n]));
+  }
+  row("figures", listed);
   row("profile", facts.map.profile);
   row("confidence", fmt::format("{:.2f}", facts.confidence));
   row("units", fmt::format("{} ({:.6g} m)", facts.unit_name, facts.metres_per_unit));
@@ -79,7 +85,8 @@ std::string MapTable(const RigFacts& facts, const RigMotion& motion) {
   return out;
 }
 
-std::string MapJson(const RigFacts& facts, const RigMotion& motion) {
+std::string MapJson(const RigFacts& facts, const RigMotion& motion,
+                    const std::vector<std::string>& figures) {
   nlohmann::ordered_json json;
   json["profile"] = facts.map.profile;
   json["confidence"] = std::round(facts.confidence * 1e3) / 1e3;
@@ -98,6 +105,7 @@ std::string MapJson(const RigFacts& facts, const RigMotion& motion) {
   json["unmapped"] = UnmappedNames(motion, facts.map);
   json["t_pose_frames"] = facts.t_pose_frames;
   json["notes"] = facts.notes;
+  json["figures"] = figures;
   // Names need not be UTF-8; what is not is replaced.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }

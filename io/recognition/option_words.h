@@ -8,9 +8,12 @@ namespace retarget::io {
 
 struct OptionWords {
   std::string units = "ClipOptions::units";
+  std::string stature = "ClipOptions::stature";
   std::string up = "ClipOptions::up";
   std::string skip_frames = "ClipOptions::skip_frames";
   std::string start = "ClipOptions::start";
+  std::string travel = "ClipOptions::travel";
+  std::string ik_targets = "ClipOptions::ik_targets";
   std::string character = "ClipOptions::character";
   // How a figure is mapped by hand; {} stands for its file.
   std::string map_by_hand = "write its map (MapOfClip), edit it, give it as ClipOptions::map";

@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "io/recognition/joint_profiles.h"
+#include "io/recognition/joint_words.h"
+#include "io/recognition/limb_words.h"
+#include "io/recognition/loose_bones.h"
 #include "io/recognition/map_joints.h"
 #include "io/recognition/rig_check.h"
 #include "io/recognition/rig_measure.h"
@@ -97,6 +100,16 @@ JointMap FindJoints(const RigMotion& motion, const Refusal& refusal, RigFacts* f
     }
     return match.map;
   }
+  const std::vector<JointWords> words = ReadJointWords(rig);
+  const NameMatch by_words = MatchWords(rig, words, SamplePoses(motion));
+  if (by_words.complete()) {
+    const std::string fault = ShapeFault(rig, SamplePoses(motion), by_words.map);
+    if (!fault.empty()) RefuseFigure(refusal, fault);
+    facts->confidence = by_words.share;
+    facts->notes.push_back(
+        "the joint names follow no known convention: joints were told by the words in them");
+    return by_words.map;
+  }
   ShapeMatch shape = MatchShape(rig, SamplePoses(motion));
   if (shape.map) {
     facts->confidence = 0;
@@ -115,6 +128,44 @@ JointMap FindJoints(const RigMotion& motion, const Refusal& refusal, RigFacts* f
                                     Printable(match.misplaced.front())));
 }
 
+// Feet that a convention's reading has left out because of what they hang from.
+void TakeLooseFeet(const RigMotion& motion, RigFacts* facts) {
+  for (const std::string& name : FindLooseFeet(motion, &facts->map)) {
+    const std::string bone = "'" + Printable(name) + "'";
+    std::erase(facts->notes, bone + " hangs where no human has it: left out");
+    facts->notes.push_back(bone +
+                           " does not hang from its shin, but stands at the end of it: the "
+                           "ankle");
+  }
+}
+
+void NoteFollowers(const RigMotion& motion, const OptionWords& words, RigFacts* facts) {
+  facts->followers = FindFollowers(motion, facts->map, facts->metres_per_unit, facts->stature);
+  constexpr size_t kShown = 6;
+  std::string list;
+  for (size_t n = 0; n < std::min(kShown, facts->followers.size()); ++n) {
+    const auto& [joint, bone] = facts->followers[n];
+    list += fmt::format("{}'{}' goes with '{}'", n > 0 ? ", " : "",
+                        Printable(motion.rig.joints[joint].name),
+                        Printable(motion.rig.joints[bone].name));
+  }
+  if (facts->followers.size() > kShown) {
+    list += fmt::format(" and {} more", facts->followers.size() - kShown);
+  }
+  if (!list.empty())
+    facts->notes.push_back(fmt::format("{} ({} keep: not)", list, words.ik_targets));
+}
+
+// What the first look has left open.
+void FillJoints(const RigMotion& motion, RigFacts* facts) {
+  std::string list;
+  for (const std::string& part :
+       FillOpenParts(motion.rig, ReadJointWords(motion.rig), SamplePoses(motion), &facts->map)) {
+    list += (list.empty() ? "" : ", ") + Printable(part);
+  }
+  if (!list.empty()) facts->notes.push_back("told by their place in the tree: " + list);
+}
+
 }  // namespace
 
 RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
@@ -123,11 +174,19 @@ RigFacts Recognise(const RigMotion& motion, const RecogniseOptions& options,
     throw InputError(file_name + ": no frames of any joint, expected a motion");
   }
   RigFacts facts;
-  facts.map = options.map ? *options.map : FindJoints(motion, {file_name, options.words}, &facts);
+  if (options.map) {
+    facts.map = *options.map;
+  } else {
+    facts.map = FindJoints(motion, {file_name, options.words}, &facts);
+    FillJoints(motion, &facts);
+    TakeLooseFeet(motion, &facts);
+  }
   const RigMeasure figure(motion, facts.map);
+  RefuseLimbsWithoutLength(figure, file_name);
   FindUnit(FigureHeight(figure), options, file_name, &facts);
   FindUp(figure, options, file_name, &facts);
   CheckRig(figure, &facts);
+  NoteFollowers(motion, options.words, &facts);
   facts.t_pose_frames = TPoseFrames(motion, figure.points, UpAxis(facts));
   NoteTPose(motion, figure.points, options.words, &facts);
   return facts;

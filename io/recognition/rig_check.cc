@@ -10,6 +10,7 @@
 
 #include "io/recognition/map_joints.h"
 #include "io/recognition/rig_units.h"
+#include "io/text/quoted.h"
 
 namespace retarget::io {
 namespace {
@@ -155,5 +156,29 @@ class RigCheck {
 }  // namespace
 
 void CheckRig(const RigMeasure& figure, RigFacts* facts) { RigCheck(figure, facts).Run(); }
+
+void RefuseLimbsWithoutLength(const RigMeasure& figure, const std::string& file) {
+  constexpr double kLeast = 1e-3;  // of the stature
+  const std::tuple<const char*, RigPoint Side::*, RigPoint Side::*> limbs[] = {
+      {"upper arm", &Side::shoulder, &Side::elbow},
+      {"forearm", &Side::elbow, &Side::wrist},
+      {"thigh", &Side::hip, &Side::knee},
+      {"shin", &Side::knee, &Side::ankle}};
+  const double height = FigureHeight(figure);
+  if (!(height > 0)) return;  // all joints in one point
+  for (const auto& [word, side] :
+       {std::pair("left", &figure.points.left), {"right", &figure.points.right}}) {
+    for (const auto& [limb, from, to] : limbs) {
+      if (MedianDistance(figure.poses, side->*from, side->*to) > kLeast * height) continue;
+      const auto name = [&](const RigPoint& point) {
+        return QuotedWord(figure.rig->joints[point.joint].name);
+      };
+      throw InputError(
+          fmt::format("{}: the {} {} has no length: {} and {} stand in one place, expected a bone "
+                      "between them",
+                      file, word, limb, name(side->*from), name(side->*to)));
+    }
+  }
+}
 
 }  // namespace retarget::io

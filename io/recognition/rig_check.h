@@ -2,6 +2,8 @@
 // io/recognition/recognise.h.
 #pragma once
 
+#include <string>
+
 #include "io/recognition/rig_measure.h"
 #include "model/rig/rig.h"
 
@@ -11,5 +13,9 @@ namespace retarget::io {
 // share of checks that it passed into `facts->confidence`, which holds the share of its joints
 // found by name. `facts` has map, unit and up axis.
 void CheckRig(const RigMeasure& figure, RigFacts* facts);
+
+// Throws InputError, one line that begins with `file`, where an upper arm, forearm, thigh or shin
+// has no length in most frames: such a figure can hold nobody.
+void RefuseLimbsWithoutLength(const RigMeasure& figure, const std::string& file);
 
 }  // namespace retarget::io

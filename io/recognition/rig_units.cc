@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 namespace retarget::io {
 namespace {
@@ -15,8 +16,8 @@ struct Unit {
   const char* name;
   double metres;
 };
-constexpr Unit kUnits[] = {
-    {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"cmu", 0.0254 / 0.45}};
+constexpr Unit kUnits[] = {{"m", 1},    {"cm", 0.01},   {"mm", 0.001},
+                           {"dm", 0.1}, {"in", 0.0254}, {"cmu", 0.0254 / 0.45}};
 
 // Statures (m): of any human, and of most adults.
 constexpr double kSmallest = 0.9, kTallest = 2.3, kUsual = 1.70;
@@ -29,26 +30,50 @@ std::string UnitName(double metres) {
   return fmt::format("{:g}", metres);
 }
 
-// The listed unit that makes `height` (file units) the most usual stature.
-double GuessUnit(double height, const OptionWords& words, const std::string& file) {
+bool IsUsual(double stature) { return stature >= kUsualSmallest && stature <= kUsualTallest; }
+
+// The listed unit that makes `height` (file units) come nearest to the stature that is expected:
+// an adult's before any other; none where it makes no human.
+const Unit* GuessUnit(double height, double expected) {
   const Unit* best = nullptr;
-  double least = 0;
+  const auto rank = [&](const Unit& unit) {
+    const double stature = height * unit.metres;
+    return std::pair(!IsUsual(stature), std::abs(std::log(stature / expected)));
+  };
   for (const Unit& unit : kUnits) {
     const double stature = height * unit.metres;
     if (stature < kSmallest || stature > kTallest) continue;
-    const double distance = std::abs(std::log(stature / kUsual));
-    if (best == nullptr || distance < least) {
-      best = &unit;
-      least = distance;
+    if (best == nullptr || rank(unit) < rank(*best)) best = &unit;
+  }
+  return best;
+}
+
+// Where the file does not say its unit. A stature that the user gives settles what the table leaves
+// open: a listed unit that comes near to it, else the unit that makes the figure just so tall.
+void GuessUnit(double height, const RecogniseOptions& options, const std::string& file,
+               RigFacts* facts) {
+  constexpr double kNear = 0.1;  // of the stature that was given
+  const double given = options.stature;
+  const Unit* unit = GuessUnit(height, given > 0 ? given : kUsual);
+  if (given > 0) {
+    const bool adult = unit != nullptr && IsUsual(height * unit->metres);
+    const bool near = unit != nullptr && std::abs(height * unit->metres - given) <= kNear * given;
+    if (!adult && !near) {
+      facts->metres_per_unit = given / height;
+      facts->notes.push_back(
+          fmt::format("no unit is known that makes the figure, {:.4g} units tall, an adult: the "
+                      "unit is taken from its stature, {:.4g} m",
+                      height, facts->metres_per_unit));
+      return;
     }
   }
-  if (best == nullptr) {
+  if (unit == nullptr) {
     throw InputError(
         fmt::format("{}: the figure is {:.4g} units tall, no human height in m, cm, "
-                    "mm, in or cmu; give its unit with {}",
-                    file, height, words.units));
+                    "mm, dm, in or cmu; give its unit with {}, or its height with {}",
+                    file, height, options.words.units, options.words.stature));
   }
-  return best->metres;
+  facts->metres_per_unit = unit->metres;
 }
 
 // The rig as its offsets draw it: nothing turned.
@@ -74,11 +99,11 @@ void FindUnit(double height, const RecogniseOptions& options, const std::string&
       throw InputError(file + ": units must be a positive number of metres");
     }
   } else {
-    facts->metres_per_unit = GuessUnit(height, options.words, file);
+    GuessUnit(height, options, file, facts);
   }
   facts->unit_name = UnitName(facts->metres_per_unit);
   facts->stature = height * facts->metres_per_unit;
-  if (facts->stature < kUsualSmallest || facts->stature > kUsualTallest) {
+  if (!IsUsual(facts->stature) && options.stature <= 0) {
     facts->notes.push_back(fmt::format("a stature of {:.2f} m is unusual", facts->stature) +
                            (options.metres_per_unit ? ""
                                                     : ": if the unit is not " + facts->unit_name +

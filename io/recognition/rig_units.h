@@ -10,8 +10,10 @@
 namespace retarget::io {
 
 // Fills unit, its name and stature of `facts`, whose figure is `height` file units tall: the unit
-// of the options, else the listed one that makes the stature the most usual. Notes what is odd;
-// throws InputError, one line that begins with `file`, where no unit makes a human.
+// of the options, else the listed one that makes the stature an adult's, else a child's, as near as
+// can be to the stature of the options or to the usual one; where none does so, the unit that makes
+// it the stature of the options. Notes what is odd; throws InputError, one line that begins with
+// `file`, where no unit makes a human.
 void FindUnit(double height, const RecogniseOptions& options, const std::string& file,
               RigFacts* facts);
 

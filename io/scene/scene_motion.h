@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/geometry/types.h"
+#include "model/rig/keyed_motion.h"
 
 namespace retarget::io {
 
@@ -35,18 +36,14 @@ class SceneMotion {
   void NodePositions(double t, const std::string& figure,
                      const std::vector<std::string>& node_names, std::vector<Vec3>* out) const;
 
+  // The tree with its tracks, for what reasons about the motion between instants; ids are those of
+  // FindNodes.
+  KeyedMotion Keyed() const { return {key_times, nodes_, translation_tracks_, rotation_tracks_}; }
+
  private:
   friend class SceneMotionReader;
 
-  // Local transform: p -> translation + rotation * stretch * p. A track number replaces the fixed
-  // value; -1 is none.
-  struct Node {
-    int parent = -1;  // always before this one
-    Vec3 translation = Vec3::Zero();
-    Quat rotation = Quat::Identity();
-    Mat3 stretch = Mat3::Identity();
-    int translation_track = -1, rotation_track = -1;
-  };
+  using Node = KeyedNode;
 
   // A key and the share of the way to the next.
   struct Instant {

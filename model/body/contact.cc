@@ -32,32 +32,48 @@ std::vector<bool> PlantedFrames(const std::vector<Vec3>& p, double fps,
 
 }  // namespace
 
+std::vector<int> FootNodes(const Body& body) {
+  std::vector<int> nodes;
+  for (int n = 0; n < body.num_nodes(); ++n) {
+    const std::string& name = body.nodes[n].name;
+    if (name.ends_with("_ankle") || name.ends_with("_toe")) nodes.push_back(n);
+  }
+  return nodes;
+}
+
+std::vector<Contact> DetectContacts(const std::vector<Vec3>& path, double fps, int node,
+                                    const ContactSettings& settings) {
+  std::vector<Contact> runs;
+  const std::vector<bool> planted = PlantedFrames(path, fps, settings);
+  for (int k = 0; k < static_cast<int>(path.size()); ++k) {
+    if (!planted[k]) continue;
+    const int gap = runs.empty() ? 0 : k - runs.back().last - 1;
+    const bool joins = !runs.empty() && (gap == 0 || gap / fps < settings.max_gap_s);
+    if (joins) {
+      runs.back().last = k;
+    } else {
+      runs.push_back({node, k, k});
+    }
+  }
+  std::erase_if(runs, [&](const Contact& run) {
+    return (run.last - run.first + 1) / fps < settings.min_length_s - kTimeSlack;
+  });
+  return runs;
+}
+
 std::vector<Contact> DetectContacts(const Body& body, const Clip& clip,
                                     const std::vector<int>& supports,
                                     const ContactSettings& settings) {
-  std::vector<std::vector<Vec3>> position(supports.size());
+  std::vector<std::vector<Vec3>> path(supports.size());
   PosedBody posed;
   for (const Pose& pose : clip.frames) {
     PoseBody(body, pose, &posed);
-    for (size_t s = 0; s < supports.size(); ++s) position[s].push_back(posed.node[supports[s]]);
+    for (size_t s = 0; s < supports.size(); ++s) path[s].push_back(posed.node[supports[s]]);
   }
   std::vector<Contact> contacts;
   for (size_t s = 0; s < supports.size(); ++s) {
-    const std::vector<bool> planted = PlantedFrames(position[s], clip.fps, settings);
-    std::vector<Contact> runs;
-    for (int k = 0; k < clip.num_frames(); ++k) {
-      if (!planted[k]) continue;
-      const int gap = runs.empty() ? 0 : k - runs.back().last - 1;
-      const bool joins = !runs.empty() && (gap == 0 || gap / clip.fps < settings.max_gap_s);
-      if (joins) {
-        runs.back().last = k;
-      } else {
-        runs.push_back({supports[s], k, k});
-      }
-    }
-    for (const Contact& run : runs) {
-      const double length = (run.last - run.first + 1) / clip.fps;
-      if (length >= settings.min_length_s - kTimeSlack) contacts.push_back(run);
+    for (const Contact& c : DetectContacts(path[s], clip.fps, supports[s], settings)) {
+      contacts.push_back(c);
     }
   }
   return contacts;

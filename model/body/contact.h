@@ -23,4 +23,11 @@ std::vector<Contact> DetectContacts(const Body& body, const Clip& clip,
                                     const std::vector<int>& supports,
                                     const ContactSettings& settings);
 
+// The same of one node's path over the floor; the contacts are of node `node`.
+std::vector<Contact> DetectContacts(const std::vector<Vec3>& path, double fps, int node,
+                                    const ContactSettings& settings);
+
+// Ankles and toes of a body, by name.
+std::vector<int> FootNodes(const Body& body);
+
 }  // namespace retarget

@@ -254,7 +254,11 @@ void RigBinding::LimitWaist(const std::vector<World>& frames) {
 
 RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest_bone,
                        double stature)
-    : rig_(motion.rig), map_(facts.map), chest_bone_(chest_bone), scale_(facts.metres_per_unit) {
+    : rig_(motion.rig),
+      map_(facts.map),
+      chest_bone_(chest_bone),
+      scale_(facts.metres_per_unit),
+      followers_(facts.followers) {
   if (facts.up == 'z') up_ = Quat(Eigen::AngleAxisd(-kPi / 2, Vec3::UnitX()));
   const std::vector<PosedRig> samples = SamplePoses(motion);
   points_ = FindPoints(rig_, samples, map_, chest_bone_);
@@ -283,6 +287,7 @@ RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest
                                                              : points_.right.hip;
     if (at.is_joint()) joint_at_node_[n] = at.joint;
   }
+  FindFreedom();
 }
 
 }  // namespace retarget

@@ -20,6 +20,7 @@
 
 #include "model/body/body.h"
 #include "model/body/pose.h"
+#include "model/rig/fit.h"
 #include "model/rig/points.h"
 #include "model/rig/rig.h"
 
@@ -45,6 +46,15 @@ class RigBinding {
   // `captured` with the posture `solved` in place of its own. Every bone is turned by what its link
   // was turned, G_solved G_captured^-1; bones without a link keep their local motion.
   RigFrame Apply(const RigFrame& captured, const Pose& solved) const;
+
+  // The whole rig of a frame turned and moved (world axes, m), bones that do not hang from the root
+  // with it: p -> turn p + shift. Where the root has no such bones beside it, it alone is moved.
+  RigFrame Placed(const RigFrame& frame, const Quat& turn, const Vec3& shift) const;
+
+  // The same as Apply with the mapped joints where the body's nodes are (model/rig/fit.h), as near
+  // as the rig allows: what is to be written. The body is rigid and bends in fewer places; a rig
+  // may turn helper bones, stretch, and bend a spine of many bones.
+  RigFrame Fitted(const RigFrame& captured, const Pose& solved) const;
 
   // The turns that the rig's joints cannot make from a frame, by links that one bone alone follows:
   // a joint with one or two axes, as in Acclaim files, stays within them.
@@ -77,6 +87,13 @@ class RigBinding {
     std::vector<Vec3> position;
   };
 
+  void FindFreedom();
+  RigFrame TurnBones(const RigFrame& captured, const Pose& solved) const;
+  bool IsOthers(int top) const;
+  void Follow(const RigFrame& captured, RigFrame* out) const;
+  RigFrame Bend(const RigFrame& captured, const Pose& solved) const;
+  // The joint that moves the root, where the file moves the root or one above it.
+  int Mover() const;
   void MapLinks();
   void MapTrunk();
   void MapSide(const JointMap::Side& side, const RigPoints::Side& points, double x);
@@ -113,6 +130,12 @@ class RigBinding {
   std::vector<int> spine_group_;   // bones between root and chest
   std::vector<int> joint_at_node_;
   std::vector<char> locked_;  // by link
+  RigFreedom freedom_;        // what a fit may change
+  // Of the joints at nodes, those that do not hang from the joint before them in the body, such as
+  // feet beside the hips: they are moved to where they belong. By node.
+  std::vector<char> detached_;
+  std::vector<RigFollower> followers_;
+  bool has_loose_joints_ = false;  // that neither hang from the root nor carry it
   std::vector<TwistHelper> twist_helpers_;
 };
 

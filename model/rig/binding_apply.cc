@@ -1,4 +1,5 @@
 // The way back: a posture of the body onto the bones of a rig.
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include "model/geometry/so3.h"
 #include "model/rig/binding.h"
 #include "model/rig/standard_links.h"
+#include "model/rig/tree.h"
 
 namespace retarget {
 namespace {
@@ -22,6 +24,20 @@ Quat BendToDistance(const Vec3& lower, const Vec3& upper, double distance, const
   const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double now = std::acos(std::clamp(lower.dot(upper) / (a * b), -1.0, 1.0));
   return Quat(Eigen::AngleAxisd(angle - now, about));
+}
+
+// Moves `mover` so that `joint`, itself or below it, stands at `place` (file units and axes).
+void MoveJoint(const Rig& rig, int mover, int joint, const Vec3& place, RigFrame* frame) {
+  const PosedRig posed = PoseRig(rig, *frame);
+  const Vec3 apart = place - posed.position[joint];
+  const int above = rig.joints[mover].parent;
+  if (above < 0) {
+    frame->translation[mover] += apart;
+  } else if (posed.linear.empty()) {
+    frame->translation[mover] += posed.rotation[above].conjugate() * apart;
+  } else if (const Eigen::FullPivLU<Mat3> lu(posed.linear[above]); lu.isInvertible()) {
+    frame->translation[mover] += lu.solve(apart);
+  }
 }
 
 }  // namespace
@@ -78,7 +94,55 @@ void RigBinding::SpreadOverSpine(const World& captured, const std::vector<Quat>&
   }
 }
 
-RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
+// Which joints a fit may turn and move, and which have to be moved at all.
+void RigBinding::FindFreedom() {
+  const int count = rig_.num_joints();
+  freedom_.turns.assign(count, 0);
+  freedom_.shifts.assign(count, 0);
+  for (int j = 0; j < count; ++j) {
+    freedom_.turns[j] = DescendsFrom(rig_, j, map_.root) || link_of_bone_[j] >= 0;
+    freedom_.shifts[j] = rig_.joints[j].translates && DescendsFrom(rig_, j, map_.root);
+  }
+  freedom_.shifts[Mover()] = 1;
+  for (int j = 0; j < count; ++j) {
+    const bool loose = !DescendsFrom(rig_, j, map_.root) && !DescendsFrom(rig_, map_.root, j);
+    has_loose_joints_ = has_loose_joints_ || (loose && !IsOthers(TopOf(rig_, j)));
+  }
+  detached_.assign(joint_at_node_.size(), 0);
+  for (int n = 1; n < body_.num_nodes(); ++n) {
+    if (joint_at_node_[n] < 0) continue;
+    // The limbs hang from the trunk in more ways than one.
+    const int link = body_.nodes[n].link;
+    const bool of_limb = link > kHead && body_.nodes[body_.nodes[n].parent].link > kHead;
+    int above = of_limb ? joint_at_node_[body_.nodes[n].parent] : map_.root;
+    if (above < 0) above = map_.root;
+    detached_[n] = rig_.joints[joint_at_node_[n]].can_translate &&
+                   !DescendsFrom(rig_, joint_at_node_[n], above);
+    if (detached_[n]) freedom_.shifts[joint_at_node_[n]] = 1;
+  }
+}
+
+// Whether a tree of joints that the root does not hang from is another figure's.
+bool RigBinding::IsOthers(int top) const {
+  if (DescendsFrom(rig_, map_.root, top)) return false;
+  int own = 0, others = 0;
+  const int tree = TopOf(rig_, map_.root);
+  for (int j = 0; j < rig_.num_joints(); ++j) {
+    own += DescendsFrom(rig_, j, tree) ? 1 : 0;
+    others += DescendsFrom(rig_, j, top) ? 1 : 0;
+  }
+  return 2 * others > own;
+}
+
+int RigBinding::Mover() const {
+  int mover = map_.root;
+  while (!rig_.joints[mover].translates && rig_.joints[mover].parent >= 0) {
+    mover = rig_.joints[mover].parent;
+  }
+  return mover;
+}
+
+RigFrame RigBinding::TurnBones(const RigFrame& captured, const Pose& solved) const {
   const World world = ToWorld(captured);
   const std::vector<Quat> before = LinkRotations(world);
   std::vector<Quat> edit(kNumLinks), after(kNumLinks);
@@ -104,17 +168,83 @@ RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
     out.translation[j] = ratio_ * captured.translation[j];
   }
   TurnTwistHelpers(captured, &out);
-  // The root goes where it was solved to, moved by the joint that the file moves.
-  int mover = map_.root;
-  while (!rig_.joints[mover].translates && rig_.joints[mover].parent >= 0) {
-    mover = rig_.joints[mover].parent;
+  return out;
+}
+
+RigFrame RigBinding::Placed(const RigFrame& frame, const Quat& turn, const Vec3& shift) const {
+  if (!has_loose_joints_) return frame;  // the root takes all along
+  const Quat turn_file = up_.conjugate() * turn * up_;
+  const Vec3 shift_file = up_.conjugate() * shift / scale_;
+  RigFrame out = frame;
+  const PosedRig posed = PoseRig(rig_, frame);
+  std::vector<char> placed(rig_.joints.size(), 0);  // itself, or with what it hangs from
+  for (int j = 0; j < rig_.num_joints(); ++j) {
+    const int parent = rig_.joints[j].parent;
+    placed[j] = parent >= 0 ? placed[parent] : IsOthers(j);
+    if (placed[j] || !rig_.joints[j].can_translate || (parent >= 0 && !posed.linear.empty())) {
+      continue;
+    }
+    placed[j] = 1;
+    const Quat above = parent < 0 ? Quat::Identity() : posed.rotation[parent];
+    const Vec3 origin = parent < 0 ? Vec3::Zero() : posed.position[parent];
+    out.rotation[j] = above.conjugate() * turn_file * posed.rotation[j];
+    out.translation[j] = above.conjugate() * (turn_file * posed.position[j] + shift_file - origin);
   }
+  return out;
+}
+
+// Joints that go with a bone they do not hang from: the bone takes them along.
+void RigBinding::Follow(const RigFrame& captured, RigFrame* out) const {
+  if (followers_.empty()) return;
+  const PosedRig before = PoseRig(rig_, captured);
+  for (const auto& [joint, bone] : followers_) {
+    const PosedRig posed = PoseRig(rig_, *out);
+    const Quat turn = posed.rotation[bone] * before.rotation[bone].conjugate();
+    const int parent = rig_.joints[joint].parent;
+    const Quat above = parent < 0 ? Quat::Identity() : posed.rotation[parent];
+    out->rotation[joint] = (above.conjugate() * turn * before.rotation[joint]).normalized();
+    if (!rig_.joints[joint].can_translate) continue;
+    const Vec3 arm = ratio_ * (before.position[joint] - before.position[bone]);
+    MoveJoint(rig_, joint, joint, posed.position[bone] + turn * arm, out);
+  }
+}
+
+RigFrame RigBinding::Apply(const RigFrame& captured, const Pose& solved) const {
+  RigFrame out = Bend(captured, solved);
+  Follow(captured, &out);
+  return out;
+}
+
+RigFrame RigBinding::Bend(const RigFrame& captured, const Pose& solved) const {
+  RigFrame out = TurnBones(captured, solved);
   const double own_scale = scale_ / ratio_;
-  const PosedRig posed = PoseRig(rig_, out);
-  const Vec3 target = up_.conjugate() * solved.root_position / own_scale;
-  const int above = rig_.joints[mover].parent;
-  const Quat turn = above < 0 ? Quat::Identity() : posed.rotation[above];
-  out.translation[mover] += turn.conjugate() * (target - posed.position[map_.root]);
+  const auto to_file = [&](const Vec3& p) -> Vec3 { return up_.conjugate() * p / own_scale; };
+  // The root goes where it was solved to, moved by the joint that the file moves.
+  MoveJoint(rig_, Mover(), map_.root, to_file(solved.root_position), &out);
+  if (std::find(detached_.begin(), detached_.end(), 1) == detached_.end()) return out;
+  const PosedBody posed = PoseBody(body_, solved);
+  for (size_t n = 0; n < detached_.size(); ++n) {
+    const int joint = joint_at_node_[n];
+    if (detached_[n]) MoveJoint(rig_, joint, joint, to_file(posed.node[n]), &out);
+  }
+  return out;
+}
+
+RigFrame RigBinding::Fitted(const RigFrame& captured, const Pose& solved) const {
+  const double own_scale = scale_ / ratio_;
+  const PosedBody posed = PoseBody(body_, solved);
+  std::vector<RigTarget> targets;
+  for (size_t n = 0; n < joint_at_node_.size(); ++n) {
+    if (joint_at_node_[n] < 0) continue;
+    targets.push_back({joint_at_node_[n], up_.conjugate() * posed.node[n] / own_scale});
+  }
+  RigFreedom freedom = freedom_;
+  for (int j = 0; !captured.scale.empty() && j < rig_.num_joints(); ++j) {
+    // Where bones change their lengths as they turn, turns alone cannot reach.
+    if (rig_.joints[j].can_translate && DescendsFrom(rig_, j, map_.root)) freedom.shifts[j] = 1;
+  }
+  RigFrame out = FitFrame(rig_, freedom, targets, own_scale, Bend(captured, solved));
+  Follow(captured, &out);
   return out;
 }
 

@@ -20,7 +20,31 @@ std::vector<int> Rig::ChildrenOf(int joint) const {
   return children;
 }
 
+namespace {
+
+PosedRig PoseScaledRig(const Rig& rig, const RigFrame& frame) {
+  PosedRig posed;
+  for (size_t j = 0; j < rig.joints.size(); ++j) {
+    const int parent = rig.joints[j].parent;
+    const Mat3 own = frame.rotation[j].toRotationMatrix() * frame.scale[j].asDiagonal();
+    if (parent < 0) {
+      posed.rotation.push_back(frame.rotation[j]);
+      posed.position.push_back(frame.translation[j]);
+      posed.linear.push_back(own);
+    } else {
+      posed.rotation.push_back(posed.rotation[parent] * frame.rotation[j]);
+      posed.position.push_back(posed.position[parent] +
+                               posed.linear[parent] * frame.translation[j]);
+      posed.linear.push_back(posed.linear[parent] * own);
+    }
+  }
+  return posed;
+}
+
+}  // namespace
+
 PosedRig PoseRig(const Rig& rig, const RigFrame& frame) {
+  if (!frame.scale.empty()) return PoseScaledRig(rig, frame);
   PosedRig posed;
   posed.rotation.resize(rig.joints.size());
   posed.position.resize(rig.joints.size());
@@ -50,6 +74,9 @@ RigFrame SampleRig(const RigMotion& motion, double time) {
   for (size_t j = 0; j < a.rotation.size(); ++j) {
     out.translation[j] = (1 - u) * a.translation[j] + u * b.translation[j];
     out.rotation[j] = a.rotation[j].slerp(u, b.rotation[j]);
+  }
+  for (size_t j = 0; j < a.scale.size(); ++j) {
+    out.scale[j] = (1 - u) * a.scale[j] + u * b.scale[j];
   }
   return out;
 }

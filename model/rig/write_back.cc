@@ -15,6 +15,7 @@ EditCurve::EditCurve(const Clip& before, const Clip& after) : fps_(before.fps) {
     for (size_t l = 0; l < p.rotation.size(); ++l) {
       edit.push_back(LogSo3(p.rotation[l].conjugate() * q.rotation[l]));
     }
+    for (const Vec3& v : edit) is_zero_ = is_zero_ && v.norm() < 1e-9;
     edit_.push_back(std::move(edit));
   }
 }
@@ -49,6 +50,22 @@ Pose EditCurve::Apply(const Pose& pose, double time) const {
   return out;
 }
 
+namespace {
+
+RigFrame PlacedFrame(const RigBinding& binding, const RigFrame& captured,
+                     const std::function<Pose(const Pose&)>& place) {
+  const Pose there = binding.PoseOf(captured), placed = place(there);
+  const Quat turn = placed.rotation[0] * there.rotation[0].conjugate();
+  return binding.Placed(captured, turn, placed.root_position - turn * there.root_position);
+}
+
+}  // namespace
+
+RigFrame WrittenFrame(const RigBinding& binding, const RigFrame& captured,
+                      const std::function<Pose(const Pose&)>& place, const Pose& solved) {
+  return binding.Fitted(PlacedFrame(binding, captured, place), solved);
+}
+
 RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double start,
                     const std::function<Pose(const Pose&)>& place, const Clip& source,
                     const Clip& solved) {
@@ -61,7 +78,9 @@ RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double
   for (int i = 0; i < keys; ++i) {
     const double time = i * captured.frame_time;
     const RigFrame frame = SampleRig(captured, start + time);
-    out.frames.push_back(binding.Apply(frame, edit.Apply(place(binding.PoseOf(frame)), time)));
+    const Pose pose = edit.Apply(place(binding.PoseOf(frame)), time);
+    out.frames.push_back(edit.is_zero() ? binding.Apply(PlacedFrame(binding, frame, place), pose)
+                                        : WrittenFrame(binding, frame, place, pose));
   }
   return out;
 }

@@ -15,15 +15,25 @@ class EditCurve {
   EditCurve(const Clip& before, const Clip& after);
   // `pose` with the edit at `time` (s from the first frame) applied.
   Pose Apply(const Pose& pose, double time) const;
+  bool is_zero() const { return is_zero_; }
 
  private:
   double fps_;
+  bool is_zero_ = true;
   std::vector<std::vector<Vec3>> edit_;  // [frames][1 + links]: translation, then rotation vectors
 };
 
+// A captured frame with a solved posture in place of its own (RigBinding::Fitted), and what does
+// not hang from the root placed with the figure: `place`, a rigid motion, lays a captured pose into
+// the scene.
+RigFrame WrittenFrame(const RigBinding& binding, const RigFrame& captured,
+                      const std::function<Pose(const Pose&)>& place, const Pose& solved);
+
 // The solved motion on the rig, keyed at the rig's own rate over the solved span: key i at
 // `start` + i * frame_time of the captured motion. `place` lays a captured pose into the scene;
-// `source` is the placed clip at the output rate and `solved` the result.
+// `source` is the placed clip at the output rate and `solved` the result. Where they differ the
+// rig's joints are brought to the solved body's nodes (RigBinding::Fitted), also where the captured
+// ones stood apart from it; a motion that is not edited at all comes back just as it was.
 RigMotion WriteBack(const RigMotion& captured, const RigBinding& binding, double start,
                     const std::function<Pose(const Pose&)>& place, const Clip& source,
                     const Clip& solved);

@@ -37,6 +37,7 @@ class Measurement {
   void MeasureTangles() {
     const double none = std::numeric_limits<double>::max();
     out_.tangles.assign(subject_.tangles.size(), {none, none, 0, 0});
+    if (out_.tangles.empty()) return;
     int kept = 0;
     for (int t = 0; t < series_.num_frames(); ++t) {
       bool all = true;
@@ -58,7 +59,7 @@ class Measurement {
       kept += all;
     }
     out_.tangle_kept_percent = 100.0 * kept / series_.num_frames();
-    out_.smallest_gli = out_.smallest_gli_between = out_.tangles.empty() ? 0 : none;
+    out_.smallest_gli = out_.smallest_gli_between = none;
     for (const TangleMetrics& t : out_.tangles) {
       out_.smallest_gli = std::min(out_.smallest_gli, t.min_signed_gli);
       out_.smallest_gli_between = std::min(out_.smallest_gli_between, t.min_signed_gli_between);
@@ -112,19 +113,21 @@ class Measurement {
       for (int t = c.first; t <= c.last; ++t) {
         const Vec3 d = frames_[t][f][c.node] - start;
         const double drift = std::hypot(d.x(), d.z());
-        if (drift > m.foot_drift_m) {
+        if (std::isnan(m.foot_drift_m) || drift > m.foot_drift_m) {
           m.foot_drift_m = drift;
           m.foot_drift_frame = t;
           m.foot_drift_node = c.node;
         }
         if (t == c.first) continue;
         const double speed = PlantedSpeed(series_, f, c, t);
-        m.foot_speed_max = std::max(m.foot_speed_max, speed);
+        m.foot_speed_max = std::fmax(m.foot_speed_max, speed);
         ++stance;
         sliding += speed > kSlideSpeed;
       }
     }
-    m.foot_speed_over_1cm_percent = stance > 0 ? 100.0 * sliding / stance : 0;
+    if (stance > 0) m.foot_speed_over_1cm_percent = 100.0 * sliding / stance;
+    m.swings = MeasureSwings(subject_, f, frames_, source_frames_);
+    m.edges = MeasureEdges(subject_, f, series_.fps, frames_, source_frames_);
   }
 
   // Node distance to the source after taking out the root's place and the best-fitting yaw.
@@ -159,7 +162,7 @@ class Measurement {
         }
       }
     }
-    m.pose_error_cm = count > 0 ? 100 * sum / count : 0;
+    if (count > 0) m.pose_error_cm = 100 * sum / count;
     m.joint_edit_deg = JointEdit(f, frames);
   }
 
@@ -170,7 +173,7 @@ class Measurement {
       sum = std::accumulate(joint.begin(), joint.begin() + static_cast<long>(frames), sum);
     }
     const size_t count = frames * series_.tracking_deg[f].size();
-    return count > 0 ? sum / static_cast<double>(count) : 0;
+    return count > 0 ? sum / static_cast<double>(count) : kNothingMeasured;
   }
 
   static double MeanJerk(const std::vector<NodePositions>& frames, int f, double fps) {
@@ -184,7 +187,7 @@ class Measurement {
         ++count;
       }
     }
-    return count > 0 ? sum / count * fps * fps * fps : 0;
+    return count > 0 ? sum / count * fps * fps * fps : kNothingMeasured;
   }
 
   void MeasureJerk() {
@@ -194,8 +197,8 @@ class Measurement {
     for (int f = 0; f < 2; ++f) {
       FigureMetrics& m = out_.figure[f];
       m.jerk = MeanJerk(frames_, f, series_.fps);
-      m.jerk_ratio_own = source[f] > 0 ? m.jerk / source[f] : 1;
-      m.jerk_ratio_larger = larger > 0 ? m.jerk / larger : 1;
+      if (source[f] > 0) m.jerk_ratio_own = m.jerk / source[f];
+      if (larger > 0) m.jerk_ratio_larger = m.jerk / larger;
     }
   }
 
@@ -206,6 +209,24 @@ class Measurement {
 };
 
 }  // namespace
+
+const Swing* WorstSwing(const FigureMetrics& metrics) {
+  const auto excess = [](const Swing& s) { return s.travel_m - s.source_m; };
+  const auto worst =
+      std::max_element(metrics.swings.begin(), metrics.swings.end(),
+                       [&](const Swing& s, const Swing& t) { return excess(s) < excess(t); });
+  return worst == metrics.swings.end() ? nullptr : &*worst;
+}
+
+const ContactEdge* WorstEdge(const FigureMetrics& metrics) {
+  const auto ratio = [](const ContactEdge& e) {
+    return e.acceleration / std::max(e.source, kLeastEdge);
+  };
+  const auto worst = std::max_element(
+      metrics.edges.begin(), metrics.edges.end(),
+      [&](const ContactEdge& e, const ContactEdge& g) { return ratio(e) < ratio(g); });
+  return worst == metrics.edges.end() ? nullptr : &*worst;
+}
 
 Metrics MetricsOf(const MetricsContext& subject, const FrameMetrics& series,
                   const std::vector<NodePositions>& source) {

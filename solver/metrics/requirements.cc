@@ -1,6 +1,7 @@
 #include "solver/metrics/requirements.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace retarget::solver {
@@ -24,7 +25,8 @@ class Requiring {
  private:
   // What is to stay at or under its limit.
   RequirementCheck& AtMost(Kind kind, double value, double limit) {
-    checks_.push_back({.kind = kind, .value = value, .limit = limit, .met = value <= limit});
+    const bool met = std::isnan(value) || value <= limit;
+    checks_.push_back({.kind = kind, .value = value, .limit = limit, .met = met});
     return checks_.back();
   }
 
@@ -64,11 +66,47 @@ class Requiring {
     RequirementCheck& drift = AtMost(Kind::kFootDrift, m.foot_drift_m, r_.foot_drift_m);
     drift.figure = f;
     drift.frame = m.foot_drift_frame;
-    drift.limbs = {{f, m.foot_drift_node}};
+    if (drift.judged()) drift.limbs = {{f, m.foot_drift_node}};
+    CheckSwings(f);
+    CheckEdges(f);
     RequirementCheck& floor = AtMost(Kind::kFloor, m.floor_m, r_.floor_m);
     floor.figure = f;
     floor.frame = m.floor_frame;
     floor.limbs = {{f, m.floor_node}};
+  }
+
+  // Of the swing, and of the edge, that is the largest multiple of what is allowed.
+  void CheckSwings(int f) {
+    const auto limit = [&](const Swing& s) {
+      return std::max(r_.foot_travel_ratio * s.source_m, r_.foot_travel_m);
+    };
+    const Swing* worst = nullptr;
+    for (const Swing& s : m_.figure[f].swings) {
+      if (!worst || s.travel_m * limit(*worst) > worst->travel_m * limit(s)) worst = &s;
+    }
+    RequirementCheck& check = worst ? AtMost(Kind::kFootTravel, worst->travel_m, limit(*worst))
+                                    : AtMost(Kind::kFootTravel, kNothingMeasured, r_.foot_travel_m);
+    check.figure = f;
+    if (!worst) return;
+    check.frame = worst->first;
+    check.limbs = {{f, worst->node}};
+  }
+
+  void CheckEdges(int f) {
+    const auto limit = [&](const ContactEdge& e) {
+      return std::max(r_.foot_acceleration_ratio * e.source, r_.foot_acceleration);
+    };
+    const ContactEdge* worst = nullptr;
+    for (const ContactEdge& e : m_.figure[f].edges) {
+      if (!worst || e.acceleration * limit(*worst) > worst->acceleration * limit(e)) worst = &e;
+    }
+    RequirementCheck& check =
+        worst ? AtMost(Kind::kFootAcceleration, worst->acceleration, limit(*worst))
+              : AtMost(Kind::kFootAcceleration, kNothingMeasured, r_.foot_acceleration);
+    check.figure = f;
+    if (!worst) return;
+    check.frame = worst->frame;
+    check.limbs = {{f, worst->node}};
   }
 
   void CheckHold(int k) {
@@ -102,6 +140,9 @@ std::string TermOf(RequirementKind kind) {
       return "ground";
     case Kind::kHold:
       return "hold";
+    case Kind::kFootTravel:
+    case Kind::kFootAcceleration:
+      return "foot_swing";
     case Kind::kPassThroughs:
     case Kind::kSegmentLength:
     case Kind::kWriteBack:

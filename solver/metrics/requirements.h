@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,8 @@ enum class RequirementKind {
   kPenetration,         // m, between the bodies
   kPenetrationOver1cm,  // % of frames
   kFootDrift,           // m, of a figure
+  kFootTravel,          // m, of a figure: over the floor, outside contacts
+  kFootAcceleration,    // m/s^2, of a figure: where contacts begin and end
   kFloor,               // m, of a figure
   kHold,                // m, of a hold
   kSegmentLength,       // %, of a figure as it is written
@@ -30,13 +34,16 @@ std::string TermOf(RequirementKind kind);
 // A requirement, whether it is met, and where it is worst.
 struct RequirementCheck {
   RequirementKind kind = RequirementKind::kTangle;
-  int item = -1;    // tag or hold, from 0; -1: it is about neither
-  int figure = -1;  // 0 or 1; -1: about both
-  double value = 0, limit = 0;
-  bool met = true;
+  int item = -1;     // tag or hold, from 0; -1: it is about neither
+  int figure = -1;   // 0 or 1; -1: about both
+  double value = 0;  // NaN: there was nothing to judge
+  double limit = 0;
+  bool met = true;  // also where there was nothing to judge
+  bool judged() const { return !std::isnan(value); }
   int frame = -1;                    // of the worst; -1: none
   std::vector<LimbNode> limbs = {};  // concerned in the worst
   std::string file = {};             // that a write-back was read from, where it was
+  std::optional<double> bound = {};  // proved for every instant (solver/proof); nothing: it is not
 };
 bool AllMet(const std::vector<RequirementCheck>& checks);
 

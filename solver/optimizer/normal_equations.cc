@@ -1,6 +1,7 @@
 #include "solver/optimizer/normal_equations.h"
 
 #include "solver/optimizer/kernels.h"
+#include "solver/problem/terms/foot_swing.h"
 
 namespace retarget::solver {
 
@@ -43,8 +44,11 @@ void FillBlock(const Problem& problem, const Rows& rows, const MatX& edit, int t
 
 std::vector<AnchorSpan> AnchorSpans(const Scene& scene) {
   std::vector<AnchorSpan> spans;
-  for (const auto& contacts : scene.contacts) {
-    for (const Contact& c : contacts) spans.push_back({c.first, c.last});
+  for (int f = 0; f < 2; ++f) {
+    for (const Contact& c : scene.contacts[f]) {
+      const Contact reach = FootSwing::Reach(scene, f, c);
+      spans.push_back({reach.first, reach.last});
+    }
   }
   return spans;
 }

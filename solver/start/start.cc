@@ -84,7 +84,11 @@ std::array<Clip, 2> TemplateRelativePoses(const Scene& scene) {
 
 Unknowns TemplateStart(const Problem& problem) {
   const Scene& scene = problem.scene();
-  return QuasiStaticPass(problem, UnknownsFromPoses(scene, TemplateRelativePoses(scene)));
+  // Frame by frame the footprint that a free foot will come to is not known yet.
+  Settings settings = problem.settings();
+  settings.weights.foot_swing = 0;
+  return QuasiStaticPass(Problem(scene, settings),
+                         UnknownsFromPoses(scene, TemplateRelativePoses(scene)));
 }
 
 }  // namespace retarget::solver

@@ -109,7 +109,7 @@ TEST(MapFile, ErrorsNameTheirPlace) {
       {"spine: [Spine, Spine1]", "spine: [Spine1, Spine]",
        "joints.spine[1]: \"Spine\" does not hang from \"Spine1\""},
       {"format: 1", "format: 2", "format: expected a whole number from 1 to 1"},
-      {"units: cm", "units: parsec", "units: expected cm, m, mm, in, cmu or metres per unit"},
+      {"units: cm", "units: parsec", "units: expected cm, m, mm, dm, in, cmu or metres per unit"},
       {"up: y", "up: x", "up: unknown axis \"x\""},
       {"up: y", "colour: y", "unknown key \"colour\""}};
   for (const auto& c : cases) {

@@ -10,6 +10,7 @@
 #include "io/scene/scene_glb.h"
 #include "io/template_file.h"
 #include "io/text/read_file.h"
+#include "model/rig/write_back.h"
 #include "tools/api/version.h"
 #include "tools/report/report.h"
 
@@ -63,6 +64,9 @@ Job LoadJob(const Request& request) {
   if (request.show == Show::kCharacters && !is_gltf(job.clip[0]) && !is_gltf(job.clip[1])) {
     throw InputError("--show characters: neither clip is, or is put on, a glTF character");
   }
+  if (request.rest == Rest::kTPose && RestFramesOf(job, 0) + RestFramesOf(job, 1) == 0) {
+    throw InputError("--rest t-pose: neither clip is, or is put on, a BVH file");
+  }
   const int available = static_cast<int>(std::floor(common * request.fps + 1e-3)) + 1;
   job.frames = CheckedFrames(request.frames, available);
   for (int f = 0; f < 2; ++f) {
@@ -81,6 +85,10 @@ Job LoadJob(const Request& request) {
   return job;
 }
 
+int RestFramesOf(const Job& job, int f) {
+  return job.request.rest == Rest::kTPose && job.clip[f].file.format == "BVH" ? 1 : 0;
+}
+
 std::vector<std::string> RecognitionNotes(const Job& job) {
   std::vector<std::string> notes;
   for (int f = 0; f < 2; ++f) {
@@ -94,13 +102,18 @@ std::vector<std::string> RecognitionNotes(const Job& job) {
                                   clip.skin_radii ? ", capsules as wide as its skin" : ""));
     }
     for (const std::string& note : facts.notes) notes.push_back("  note: " + note);
+    if (job.request.rest == Rest::kTPose) {
+      notes.push_back(RestFramesOf(job, f) > 0
+                          ? "  written with a T-pose as frame 0, the motion from frame 1 on"
+                          : "  --rest t-pose: no BVH, written with its own rest pose");
+    }
   }
   return notes;
 }
 
 std::vector<std::string> OutputNames(const Job& job) {
-  std::vector<std::string> names = {"scene.glb", "source.glb", "baseline.glb", "report.json",
-                                    "config.yaml"};
+  std::vector<std::string> names = {"scene.glb",   "source.glb",  "baseline.glb",
+                                    "report.json", "config.yaml", "certificate.json"};
   if (job.request.page) names.push_back("report.html");
   for (int f = 0; f < 2; ++f) {
     for (const std::string& name : io::NamesOfClipFile(job.clip[f].file, report::kFigure[f])) {
@@ -114,6 +127,7 @@ namespace {
 
 // `motion`: of the scene's bodies, from its first frame on; `scene`: its file.
 std::string ShowCharacters(const Job& job, const std::array<Clip, 2>& motion,
+                           const std::array<solver::Placement, 2>& placement,
                            const std::string& scene, std::vector<std::string>* notes) {
   std::array<io::ScaledGltf, 2> scaled;
   std::array<io::SceneCharacter, 2> character;
@@ -128,8 +142,10 @@ std::string ShowCharacters(const Job& job, const std::array<Clip, 2>& motion,
     own.frame_time = 1 / fps;
     for (size_t t = 0; t < motion[f].frames.size(); ++t) {
       const double time = clip.options.start + (job.frames.first + static_cast<double>(t)) / fps;
-      own.frames.push_back(
-          clip.binding->Apply(SampleRig(clip.file.motion, time), motion[f].frames[t]));
+      own.frames.push_back(WrittenFrame(
+          *clip.binding, SampleRig(clip.file.motion, time),
+          [&](const Pose& pose) { return solver::Placed(pose, placement[f]); },
+          motion[f].frames[t]));
     }
     scaled[f] = io::ScaleGltf(*gltf, own, clip.binding->stature_ratio());
     character[f] = {&scaled[f].clip, &scaled[f].motion};
@@ -149,12 +165,12 @@ std::string SceneBytes(const std::array<Body, 2>& body, const std::array<Clip, 2
 void CheckCharacters(const Job& job) {
   std::array<Clip, 2> first = job.input.clip;
   for (Clip& clip : first) clip.frames.resize(1);
-  ShowCharacters(job, first, SceneBytes(job.input.body, first), nullptr);
+  ShowCharacters(job, first, {}, SceneBytes(job.input.body, first), nullptr);
 }
 
 std::string CharacterScene(const Job& job, const solver::RetargetResult& result,
                            const std::string& scene, std::vector<std::string>* notes) {
-  return ShowCharacters(job, result.solved, scene, notes);
+  return ShowCharacters(job, result.solved, result.placement, scene, notes);
 }
 
 std::string SceneBytes(const solver::Scene& scene, const std::array<Clip, 2>& clips) {

@@ -25,6 +25,9 @@ std::vector<std::string> OutputNames(const Job& job);
 // The files that a request reads, none of which it may overwrite.
 std::vector<std::string> InputPaths(const Request& request);
 
+// Frames that stand before the motion on a clip's own rig: 1 for a T-pose, else 0.
+int RestFramesOf(const Job& job, int f);
+
 // What was recognised in each clip: a line each, and notes. The start of Result::notes.
 std::vector<std::string> RecognitionNotes(const Job& job);
 

@@ -17,6 +17,7 @@
 #include "model/rig/rig.h"
 #include "model/settings.h"
 #include "solver/metrics/diagnosis.h"
+#include "solver/proof/proof.h"
 #include "solver/retarget.h"
 
 namespace retarget {
@@ -28,6 +29,10 @@ struct FrameRange {
 
 /// What the figures of scene.glb look like: capsules, or the clips' own glTF characters.
 enum class Show { kFigures, kCharacters };
+
+/// How the motion on a BVH clip's own rig begins: as it is, or with a T-pose before its first
+/// frame, which tools that retarget by a rest pose take from there.
+enum class Rest { kKeep, kTPose };
 
 /// What is asked of a run.
 struct Request {
@@ -46,6 +51,7 @@ struct Request {
   Show show = Show::kFigures;
   /// Whether report.html is made (a few MB).
   bool page = true;
+  Rest rest = Rest::kKeep;
 };
 
 /// How a run ended.
@@ -68,7 +74,9 @@ struct Result {
 
   /// Measured on what is written, frames and instants between them (docs/metrics.md).
   solver::Metrics source_metrics, baseline_metrics, metrics;
-  /// Every requirement with its value, limit, and place of the worst.
+  /// What scene.glb keeps at every instant, not at sampled ones (docs/proof.md).
+  solver::Proof proof;
+  /// Every requirement with its value, limit, and place of the worst; judged by the proof.
   std::vector<solver::RequirementCheck> requirements;
   /// One for each requirement that is missed: what works against it there.
   std::vector<solver::Diagnosis> diagnoses;
@@ -79,7 +87,7 @@ struct Result {
   /// rate.
   std::array<RigMotion, 2> rig_motion;
   /// The files that the program writes: scene.glb, source.glb, baseline.glb, a.<ext>, b.<ext> with
-  /// what belongs to them, report.json, report.html (Request::page), config.yaml.
+  /// what belongs to them, report.json, report.html (Request::page), config.yaml, certificate.json.
   std::vector<io::NamedBytes> files;
   /// The bytes of one of them; empty where there is none of this name.
   const std::string& File(const std::string& name) const;

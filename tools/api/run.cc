@@ -2,10 +2,12 @@
 #include <utility>
 
 #include "io/settings_file.h"
+#include "model/rig/t_pose_frame.h"
 #include "model/rig/write_back.h"
 #include "tools/api/job.h"
 #include "tools/api/run_report.h"
 #include "tools/api/version.h"
+#include "tools/proof/certificate.h"
 #include "tools/report/diagnosis_text.h"
 #include "tools/report/measured_scene.h"
 #include "tools/report/page.h"
@@ -26,16 +28,28 @@ WrittenRig WriteRig(const Job& job, const solver::RetargetResult& result, int f,
       clip.file.motion, *clip.binding, start,
       [&](const Pose& pose) { return solver::Placed(pose, placement); }, result.scene.source[f],
       result.solved[f]);
+  RigMotion written = *motion;
+  const int rest_frames = RestFramesOf(job, f);
+  if (rest_frames > 0) {
+    written.frames.insert(written.frames.begin(),
+                          TPoseFrame(clip.file.motion.rig, *clip.binding,
+                                     result.solved[f].frames.front().root_position));
+  }
   api::WrittenRig out;
   out.files =
-      io::FormatClipFile(clip.file, *motion, report::kFigure[f], clip.binding->stature_ratio());
+      io::FormatClipFile(clip.file, written, report::kFigure[f], clip.binding->stature_ratio());
   for (int n = 0; n < job.input.body[f].num_nodes(); ++n) {
     const int joint = clip.binding->JointAtNode(n);
     if (joint >= 0) out.joints.push_back({n, joint});
   }
+  std::vector<report::NodePlayed> played;
+  for (const report::NodeJoint& pair : out.joints) {
+    played.push_back({pair.node, io::JointInFile(clip.file, pair.joint)});
+  }
+  io::PlayedFile file = io::PlayedFileOf(clip.file, out.files);
+  file.rest_frames = rest_frames;
   out.error_m =
-      report::WriteBackError(io::ReadBack(clip.file, out.files), clip.file.motion.rig,
-                             clip.facts.metres_per_unit, clip.facts.up, out.joints, scene, f);
+      report::WriteBackError(file, clip.facts.metres_per_unit, clip.facts.up, played, scene, f);
   return out;
 }
 
@@ -91,6 +105,8 @@ Result RunJob(const Job& job, const Progress& progress) {
            result.metrics, {rig[0].error_m, rig[1].error_m}, settings.requirements)) {
     result.requirements.push_back(check);
   }
+  result.proof = proof::ProveScene(solved.scene(), subject, settings.requirements);
+  solver::JudgeByProof(result.proof, &result.requirements);
   const bool all_met = solver::AllMet(result.requirements);
   if (!all_met) {
     result.diagnoses = solver::Diagnose(solver::Problem(scene, settings), result.run.solve.unknowns,
@@ -101,7 +117,7 @@ Result RunJob(const Job& job, const Progress& progress) {
   // Report.
   const report::Json report =
       RunReport({job, result.run, subject, result.requirements, result.diagnoses,
-                 ExitCodeOf(result.status), rig},
+                 ExitCodeOf(result.status), rig, result.proof},
                 result.source_metrics, result.baseline_metrics, result.metrics);
   result.files = {{"scene.glb", solved.bytes()},
                   {"source.glb", source.bytes()},
@@ -117,6 +133,9 @@ Result RunJob(const Job& job, const Progress& progress) {
                                                                      baseline.bytes(), figures})});
   }
   result.files.push_back({"config.yaml", io::FormatSettings(settings)});
+  result.files.push_back(
+      {proof::kCertificate,
+       proof::FormatCertificate(result.proof, subject, solved.bytes(), kGenerator)});
   return result;
 }
 

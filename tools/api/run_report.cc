@@ -7,6 +7,7 @@
 #include "solver/optimizer/kernels.h"
 #include "solver/problem/parallel.h"
 #include "tools/api/version.h"
+#include "tools/proof/scene_proof.h"
 #include "tools/report/requirement_json.h"
 #include "tools/report/subject_json.h"
 
@@ -117,10 +118,14 @@ report::Json WriteBackJson(const RunFacts& run, int f) {
   if (file.format == "glTF") {
     written["animation"] = io::kAnimationName;
     if (!file.select.skin.empty()) written["skin"] = file.select.skin;
+    if (!file.select.figure.empty()) written["figure"] = file.select.figure;
   }
+  if (const int rest_frames = RestFramesOf(run.job, f)) written["rest_frames"] = rest_frames;
   for (const report::NodeJoint& pair : run.rig[f].joints) {
     written["joints"][run.job.input.body[f].nodes[pair.node].name] =
         run.job.clip[f].file.motion.rig.joints[pair.joint].name;
+    const int node = io::JointInFile(file, pair.joint).node;
+    if (node >= 0) written["nodes"][run.job.input.body[f].nodes[pair.node].name] = node;
   }
   return written;
 }
@@ -153,6 +158,7 @@ report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
   }
   report["metrics"] = report::ThreeMetricsJson(run.subject, source, &baseline, metrics);
   report["requirements"] = report::ChecksJson(run.checks, run.subject.body);
+  report["proof"] = proof::ProofJson(run.proof, run.subject);
   report["conflicts"] = report::DiagnosesJson(run.diagnoses, run.subject);
   report["warnings"] = result.warnings;
   report["literal_tangles"] = result.tangles.literal.size();
@@ -163,6 +169,7 @@ report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
   report["timings"] = {{"start_s", result.start_seconds},
                        {"simulation_s", result.simulation.seconds},
                        {"solve_s", result.solve.seconds},
+                       {"proof_s", run.proof.seconds},
                        {"frames_per_s", result.scene.num_frames() / result.solve.seconds}};
   report["memory"] = {{"peak_bytes", PeakBytes()}};
   report["versions"] = {{"retarget", kVersion},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/metrics/diagnosis.h"
+#include "solver/proof/proof.h"
 #include "tools/api/job.h"
 #include "tools/report/measured_scene.h"
 #include "tools/report/report.h"
@@ -26,6 +27,7 @@ struct RunFacts {
   const std::vector<solver::Diagnosis>& diagnoses;
   int exit_code;
   const std::array<WrittenRig, 2>& rig;
+  const solver::Proof& proof;
 };
 
 report::Json RunReport(const RunFacts& run, const solver::Metrics& source,

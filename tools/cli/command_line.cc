@@ -17,7 +17,12 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
   clip->option = figure;
   clip->words = ProgramWords();
   app->add_option("--units" + suffix, clip->units,
-                  "cm, m, mm, in, cmu or metres per unit (default: guess)")
+                  "cm, m, mm, dm, in, cmu or metres per unit (default: guess)")
+      ->group(group);
+  app->add_option("--stature" + suffix, clip->stature,
+                  solve ? "the motion on a body of this height (m); settles an unknown unit"
+                        : "height of the figure (m): settles an unknown unit")
+      ->check(CLI::Range(0.5, 3.0))
       ->group(group);
   app->add_option("--up" + suffix, clip->up, "up axis (default: from the motion)")
       ->check(CLI::IsMember({"y", "z"}))
@@ -30,17 +35,26 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
   app->add_option("--skip-frames" + suffix, clip->skip_frames, "drop frames from the beginning")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
+  app->add_option("--ik-targets" + suffix, clip->ik_targets,
+                  "what targets of inverse kinematics do: follow their limbs, or keep")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"follow", "keep"}))
+      ->group(group);
   if (!solve) return;
   app->add_option("--character" + suffix, clip->character,
                   "put the motion on this character (glTF, VRM, BVH) and solve on its body")
       ->group(group);
   app->add_option("--character-map" + suffix, clip->character_map, "joint map of the character")
       ->group(group);
+  app->add_option_function<std::string>(
+         "--travel" + suffix,
+         [clip](const std::string& what) { clip->keep_in_place = what == "keep"; },
+         "a clip that strides in place: recover its way from the standing foot, or keep it")
+      ->check(CLI::IsMember({"recover", "keep"}))
+      ->default_str("recover")
+      ->group(group);
   app->add_option("--start" + suffix, clip->start, "seconds into the clip")
       ->check(CLI::NonNegativeNumber)
-      ->group(group);
-  app->add_option("--stature" + suffix, clip->stature, "the motion on a body of this height (m)")
-      ->check(CLI::Range(0.5, 3.0))
       ->group(group);
 }
 
@@ -88,7 +102,8 @@ void CommandLine::AddScene(CLI::App* app) {
   RetargetOptions& o = retarget;
   app->add_option(
       "--clip-a", o.clip[0].path,
-      "first clip: BVH, glTF (hero.glb#animation=Walk,skin=1), VRM, or SKELETON.asf:CLIP.amc");
+      "first clip: BVH (pair.bvh#figure=1), glTF (hero.glb#animation=Walk,skin=1), VRM, VRMA, or "
+      "SKELETON.asf:CLIP.amc");
   app->add_option("--clip-b", o.clip[1].path, "second clip");
   app->add_option("--template", o.template_path, "template posture (YAML)");
   app->add_option("--config", o.config_path, "weights and settings (YAML; see `retarget config`)");
@@ -97,6 +112,9 @@ void CommandLine::AddScene(CLI::App* app) {
   app->add_option("--frames", o.frames, "output frames i:j, half-open, counted from the starts");
   app->add_option("--show", o.show, "scene.glb shows capsule figures, or the glTF characters")
       ->check(CLI::IsMember({"figures", "characters"}))
+      ->capture_default_str();
+  app->add_option("--rest", o.rest, "BVH as it begins, or with a T-pose before its first frame")
+      ->check(CLI::IsMember({"keep", "t-pose"}))
       ->capture_default_str();
   app->add_option("--fps", o.fps, "output frame rate")
       ->check(CLI::Range(1.0, 1000.0))
@@ -117,10 +135,7 @@ void CommandLine::AddScene(CLI::App* app) {
 }
 
 void CommandLine::AddTools(CLI::App* app) {
-  CLI::App* verify = app->add_subcommand("verify", "recompute all metrics from a run's files");
-  verify->add_option("folder", folder, "what --out was")->required();
-  verify->add_flag("--json", json);
-  verify->callback([this] { code = RunVerify(folder, json); });
+  AddProof(app);
 
   CLI::App* compare = app->add_subcommand("compare", "finished runs side by side");
   compare->add_option("folders", folders, "what --out was, one or more")->required();
@@ -197,6 +212,28 @@ void CommandLine::AddTools(CLI::App* app) {
             : std::filesystem::path(folder).replace_extension(".png").string();
     code = RunRender(folder, picture.empty() ? usual : picture, force || (run && picture.empty()));
   });
+}
+
+void CommandLine::AddProof(CLI::App* app) {
+  CLI::App* verify = app->add_subcommand(
+      "verify", "recompute all metrics from a run's files, and prove the motion for all t");
+  verify->add_option("folder", folder, "what --out was")->required();
+  verify->add_flag("--samples", samples, "judge by frames and instants between them, no proof");
+  verify->add_flag("--json", json);
+  verify->callback([this] { code = RunVerify(folder, samples, json); });
+
+  CLI::App* certificate =
+      app->add_subcommand("certificate", "check the proof that a run wrote, or compare two");
+  certificate->require_subcommand(1);
+  CLI::App* again = certificate->add_subcommand(
+      "check", "whether certificate.json holds, by another implementation than made it");
+  again->add_option("folder", folder, "what --out was")->required();
+  again->add_flag("--json", json);
+  again->callback([this] { code = RunCertificateCheck(folder, json); });
+  CLI::App* diff = certificate->add_subcommand("diff", "what differs between two certificates");
+  diff->add_option("a", folder, "what --out was")->required();
+  diff->add_option("b", other_folder, "what --out was, of the other")->required();
+  diff->callback([this] { code = RunCertificateDiff({folder, other_folder}); });
 }
 
 void CommandLine::RequireScene() const {

@@ -21,6 +21,7 @@ struct CommandLine {
   // The options that say which clips are to be tangled how.
   void AddScene(CLI::App* app);
   void AddTools(CLI::App* app);
+  void AddProof(CLI::App* app);
   void AddTemplate(CLI::App* app);
   int RunTemplate();
   void AddPose(CLI::App* app);
@@ -34,9 +35,9 @@ struct CommandLine {
   StudioOptions studio;
   io::ClipOptions map_clip;
   SettingsOptions settings;
-  std::string folder, file, check, picture;
+  std::string folder, other_folder, file, check, picture;
   std::vector<std::string> clips, folders;
-  bool json = false, yaml = false, force = false;
+  bool json = false, yaml = false, force = false, samples = false;
   int code = 0;  // of the command that ran while parsing
 };
 

@@ -36,6 +36,7 @@ struct RetargetOptions {
   std::string template_path, config_path, out = "out", frames;
   std::vector<std::string> set;
   std::string show = "figures";  // of scene.glb: "figures" or "characters"
+  std::string rest = "keep";     // of what is written as BVH: "keep" or "t-pose"
   double fps = 30, template_at = 0;
   int threads = -1;                // -1: as configured
   std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines
@@ -56,7 +57,11 @@ int RunRetarget(const RetargetOptions& options);
 // Runs the forward simulation alone and writes baseline.glb and source.glb.
 int RunSimulate(const RetargetOptions& options);
 
-int RunVerify(const std::string& folder, bool json);
+// Of a run's folder: every metric again, and the proof; `samples` judges by instants alone.
+int RunVerify(const std::string& folder, bool samples, bool json);
+// The certificate of a run's folder, by the second checker; what differs between two.
+int RunCertificateCheck(const std::string& folder, bool json);
+int RunCertificateDiff(const std::array<std::string, 2>& folders);
 int RunCompare(const std::vector<std::string>& folders, bool json);
 int RunTangles(const std::string& path, const SettingsOptions& settings, bool json);
 int RunMap(const io::ClipOptions& clip, bool json, bool yaml);

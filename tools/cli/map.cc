@@ -13,8 +13,8 @@ int RunMap(const io::ClipOptions& options, bool json, bool yaml) {
     return kDone;
   }
   const io::LoadedClip clip = io::RecogniseClip(options);
-  fmt::print("{}", json ? io::MapJson(clip.facts, clip.file.motion)
-                        : io::MapTable(clip.facts, clip.file.motion));
+  fmt::print("{}", json ? io::MapJson(clip.facts, clip.file.motion, clip.file.figures)
+                        : io::MapTable(clip.facts, clip.file.motion, clip.file.figures));
   return kDone;
 }
 

@@ -7,9 +7,12 @@ namespace retarget::cli {
 
 io::OptionWords ProgramWords() {
   return {.units = "--units",
+          .stature = "--stature",
           .up = "--up",
           .skip_frames = "--skip-frames",
           .start = "--start",
+          .travel = "--travel",
+          .ik_targets = "--ik-targets",
           .character = "--character",
           .map_by_hand =
               "`retarget map {} --yaml > a.map.yaml`, edit it, give it with --map-a "

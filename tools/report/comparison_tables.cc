@@ -76,6 +76,9 @@ std::vector<MetricRow> MetricRows() {
     add("foot drift,", "cm", 2, "foot_drift_m", 100, Kind::kFootDrift);
     add("fastest planted foot,", "cm/s", 1, "foot_speed_max_m_s", 100);
     add("foot faster than 1 cm/s,", "% of stance", 1, "foot_speed_over_1cm_s_percent", 1);
+    add("foot travel near the floor,", "cm", 1, "near_floor_travel_m", 100, Kind::kFootTravel);
+    add("foot acceleration at contact edges,", "m/s²", 1, "edge_acceleration_m_s2", 1,
+        Kind::kFootAcceleration);
     add("below the floor,", "cm", 2, "floor_m", 100, Kind::kFloor);
     add("self-penetration,", "cm", 2, "self_penetration_m", 100);
     add("pose error,", "cm", 2, "pose_error_cm", 1);

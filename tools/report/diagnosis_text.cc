@@ -40,6 +40,15 @@ class Sentence {
       case Kind::kFootDrift:
         return fmt::format("{} has slipped by {:.1f} cm at frame {}", Limb(0), 100 * r.value,
                            r.frame);
+      case Kind::kFootTravel:
+        return fmt::format(
+            "{} slides {:.1f} cm over the floor in the swing from frame {} on, {:.1f} is allowed",
+            Limb(0), 100 * r.value, r.frame, 100 * r.limit);
+      case Kind::kFootAcceleration:
+        return fmt::format(
+            "{} is thrown with {:.0f} m/s^2 where a contact begins or ends at frame {}, {:.0f} is "
+            "allowed",
+            Limb(0), r.value, r.frame, r.limit);
       case Kind::kFloor:
         return fmt::format("{} is {:.1f} cm below the floor at frame {}", Limb(0), 100 * r.value,
                            r.frame);

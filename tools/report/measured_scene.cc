@@ -36,23 +36,25 @@ solver::MotionView ViewOfScene(const io::SceneMotion& scene, const std::array<Bo
   return view;
 }
 
-double WriteBackError(const RigMotion& written, const Rig& rig, double metres_per_unit, char up,
-                      const std::vector<NodeJoint>& joints, const solver::MotionView& scene,
+double WriteBackError(const io::PlayedFile& file, double metres_per_unit, char up,
+                      const std::vector<NodePlayed>& joints, const solver::MotionView& scene,
                       int figure) {
   const Quat turn = up == 'z' ? Quat(Eigen::AngleAxisd(-kPi / 2, Vec3::UnitX())) : Quat::Identity();
+  std::vector<io::PlayedJoint> played_joints;
+  for (const NodePlayed& pair : joints) played_joints.push_back(pair.joint);
+  std::vector<double> times;
+  for (int t = 0; t < scene.num_frames; ++t) times.push_back(t / scene.fps);
+  const io::Played played = io::Play(file, played_joints, times);
   double worst = 0;
   solver::PostureSample sample;
-  const double end = (written.num_frames() - 1) * written.frame_time;
   for (int t = 0; t < scene.num_frames; ++t) {
-    const double time = t / scene.fps;
-    if (time > end + 1e-6) break;  // the rig's own rate ends within the last output frame
+    // The rig's own rate ends within the last output frame.
+    if (times[static_cast<size_t>(t)] > played.seconds + 1e-6) break;
     scene.at(t, &sample);
-    const PosedRig posed = PoseRig(written.rig, SampleRig(written, time));
-    for (const NodeJoint& pair : joints) {
-      const int joint = written.rig.Find(rig.joints[pair.joint].name);
-      if (joint < 0) return HUGE_VAL;  // the file has lost a joint
-      const Vec3 p = metres_per_unit * (turn * posed.position[joint]);
-      worst = std::max(worst, (p - sample.node[figure][pair.node]).norm());
+    for (size_t k = 0; k < joints.size(); ++k) {
+      const Vec3 p = metres_per_unit * (turn * played.position[static_cast<size_t>(t)][k]);
+      const double apart = (p - sample.node[figure][joints[k].node]).norm();
+      worst = std::isfinite(apart) ? std::max(worst, apart) : HUGE_VAL;
     }
   }
   return worst;

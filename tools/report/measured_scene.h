@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/playback/playback.h"
 #include "io/scene/scene_motion.h"
 #include "model/rig/rig.h"
 #include "solver/metrics/metrics.h"
@@ -25,6 +26,7 @@ class MeasuredScene {
   void Measure(const solver::MetricsContext& subject, const MeasuredScene& source);
 
   const std::string& bytes() const { return bytes_; }
+  const io::SceneMotion& scene() const { return scene_; }
   const solver::MotionView& view() const { return view_; }
   const solver::FrameMetrics& series() const { return series_; }
   const solver::Metrics& metrics() const { return metrics_; }
@@ -37,13 +39,20 @@ class MeasuredScene {
   solver::Metrics metrics_;
 };
 
-// Largest distance (m) between the joints of a written-back motion and the scene's nodes, over all
-// output frames. `joints` pairs nodes with joints of `rig`, which are found in `written` by name.
+// A node of the body and the joint of a written file that stands there.
 struct NodeJoint {
-  int node, joint;
+  int node, joint;  // joint: of the clip's rig
 };
-double WriteBackError(const RigMotion& written, const Rig& rig, double metres_per_unit, char up,
-                      const std::vector<NodeJoint>& joints, const solver::MotionView& scene,
+struct NodePlayed {
+  int node;
+  io::PlayedJoint joint;
+};
+
+// Largest distance (m) between the joints of a written file and the scene's nodes, over all output
+// frames that the file's keys reach. The file is played by the rules of its format
+// (io/playback/playback.h), not read as a clip. Throws InputError.
+double WriteBackError(const io::PlayedFile& file, double metres_per_unit, char up,
+                      const std::vector<NodePlayed>& joints, const solver::MotionView& scene,
                       int figure);
 
 }  // namespace retarget::report

@@ -12,7 +12,11 @@ namespace {
 
 using Kind = solver::RequirementKind;
 
-double Number(const Json& metrics, const char* key) { return metrics.at(key).get<double>(); }
+// NaN: nothing measured, or a report from before the metric.
+double Number(const Json& metrics, const char* key) {
+  const auto at = metrics.find(key);
+  return at != metrics.end() && at->is_number() ? at->get<double>() : std::nan("");
+}
 
 std::vector<MetricRow> PairRows() {
   return {{"tangles kept",
@@ -50,6 +54,9 @@ void AddFigureRows(int figure, std::vector<MetricRow>* rows) {
   };
   add("foot drift", "cm", Kind::kFootDrift, 100, "foot_drift_m");
   add("foot speed over 1 cm/s", "% of stance", {}, 1, "foot_speed_over_1cm_s_percent");
+  add("foot travel near the floor", "cm", Kind::kFootTravel, 100, "near_floor_travel_m");
+  add("foot acceleration at contact edges", "m/s^2", Kind::kFootAcceleration, 1,
+      "edge_acceleration_m_s2");
   add("below the floor", "cm", Kind::kFloor, 100, "floor_m");
   add("self-penetration", "cm", {}, 100, "self_penetration_m");
   add("pose error", "cm", {}, 1, "pose_error_cm");
@@ -82,7 +89,7 @@ Json LimitOf(const MetricRow& row, const Json& requirements) {
 
 std::string MetricCell(const MetricRow& row, const Json& metrics, const Json& limit) {
   const double value = row.value(metrics);
-  if (std::isnan(value)) return "- ";
+  if (std::isnan(value)) return "none ";
   const bool missed = !limit.is_null() && Misses(row, value, limit);
   return fmt::format("{:.2f}{}", value, missed ? "*" : " ");
 }

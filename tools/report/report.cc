@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/files.h"
 #include "io/text/read_file.h"
 #include "tools/report/diagnosis_text.h"
@@ -11,21 +13,45 @@
 namespace retarget::report {
 namespace {
 
+// Share of the contacts' beginnings and ends where the foot is accelerated by over 1.5 times the
+// source's (%); null without contacts.
+Json EdgesOver(const solver::FigureMetrics& m) {
+  if (m.edges.empty()) return nullptr;
+  const auto over = std::count_if(m.edges.begin(), m.edges.end(), [](const auto& e) {
+    return e.acceleration > 1.5 * std::max(e.source, solver::kLeastEdge);
+  });
+  return 100.0 * static_cast<double>(over) / static_cast<double>(m.edges.size());
+}
+
 Json FigureJson(const Body& body, const solver::FigureMetrics& m) {
   Json path;
   for (int n = 1; n < body.num_nodes(); ++n) path[body.nodes[n].name] = m.path_m[n];
-  return {{"self_penetration_m", m.self_penetration_m},
-          {"floor_m", m.floor_m},
-          {"foot_drift_m", m.foot_drift_m},
-          {"foot_speed_max_m_s", m.foot_speed_max},
-          {"foot_speed_over_1cm_s_percent", m.foot_speed_over_1cm_percent},
-          {"pose_error_cm", m.pose_error_cm},
-          {"joint_edit_deg", m.joint_edit_deg},
-          {"jerk_m_s3", m.jerk},
-          {"jerk_ratio_own", m.jerk_ratio_own},
-          {"jerk_ratio_larger", m.jerk_ratio_larger},
-          {"length_error_percent", m.length_error_percent},
-          {"path_m", path}};
+  const auto worst_of = [](const auto* worst, const auto& read) {
+    return worst ? Json(read(*worst)) : Json(nullptr);
+  };
+  const solver::Swing* swing = solver::WorstSwing(m);
+  const solver::ContactEdge* edge = solver::WorstEdge(m);
+  return {
+      {"self_penetration_m", m.self_penetration_m},
+      {"floor_m", m.floor_m},
+      {"foot_drift_m", m.foot_drift_m},
+      {"foot_speed_max_m_s", m.foot_speed_max},
+      {"foot_speed_over_1cm_s_percent", m.foot_speed_over_1cm_percent},
+      {"near_floor_travel_m", worst_of(swing, [](const solver::Swing& s) { return s.travel_m; })},
+      {"near_floor_travel_source_m",
+       worst_of(swing, [](const solver::Swing& s) { return s.source_m; })},
+      {"edge_acceleration_m_s2",
+       worst_of(edge, [](const solver::ContactEdge& e) { return e.acceleration; })},
+      {"edge_acceleration_source_m_s2",
+       worst_of(edge, [](const solver::ContactEdge& e) { return e.source; })},
+      {"edges_over_1p5_percent", EdgesOver(m)},
+      {"pose_error_cm", m.pose_error_cm},
+      {"joint_edit_deg", m.joint_edit_deg},
+      {"jerk_m_s3", m.jerk},
+      {"jerk_ratio_own", m.jerk_ratio_own},
+      {"jerk_ratio_larger", m.jerk_ratio_larger},
+      {"length_error_percent", m.length_error_percent},
+      {"path_m", path}};
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace {
 using Kind = solver::RequirementKind;
 
 constexpr Kind kKinds[] = {
-    Kind::kTangle,    Kind::kPassThroughs, Kind::kPenetration, Kind::kPenetrationOver1cm,
-    Kind::kFootDrift, Kind::kFloor,        Kind::kHold,        Kind::kSegmentLength,
-    Kind::kWriteBack};
+    Kind::kTangle,    Kind::kPassThroughs,  Kind::kPenetration,      Kind::kPenetrationOver1cm,
+    Kind::kFootDrift, Kind::kFootTravel,    Kind::kFootAcceleration, Kind::kFloor,
+    Kind::kHold,      Kind::kSegmentLength, Kind::kWriteBack};
 
 Json OrNull(int number) { return number < 0 ? Json(nullptr) : Json(number); }
 
@@ -68,9 +68,11 @@ Json ChecksJson(const std::vector<solver::RequirementCheck>& checks,
                 const std::array<Body, 2>& body) {
   Json out = Json::array();
   for (const solver::RequirementCheck& c : checks) {
-    Json check = {{"name", NameOf(c)},      {"value", c.value}, {"limit", c.limit},
-                  {"unit", UnitOf(c.kind)}, {"met", c.met},     {"where", WorstPlace(c, body)}};
+    Json check = {{"name", NameOf(c)},           {"value", c.value}, {"limit", c.limit},
+                  {"unit", UnitOf(c.kind)},      {"met", c.met},     {"judged", c.judged()},
+                  {"where", WorstPlace(c, body)}};
     AddPlace(c, &check);
+    check["bound"] = c.bound ? Json(*c.bound) : Json(nullptr);
     check["limbs"] = LimbsJson(c.limbs, body);
     out.push_back(check);
   }

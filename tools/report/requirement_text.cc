@@ -22,6 +22,10 @@ const char* WordsOf(Kind kind) {
       return "penetration over 1 cm";
     case Kind::kFootDrift:
       return "foot drift";
+    case Kind::kFootTravel:
+      return "foot travel";
+    case Kind::kFootAcceleration:
+      return "foot acceleration";
     case Kind::kFloor:
       return "floor";
     case Kind::kHold:
@@ -48,6 +52,10 @@ const char* KindName(Kind kind) {
       return "penetration_over_1cm";
     case Kind::kFootDrift:
       return "foot_drift";
+    case Kind::kFootTravel:
+      return "foot_travel";
+    case Kind::kFootAcceleration:
+      return "foot_acceleration";
     case Kind::kFloor:
       return "floor";
     case Kind::kHold:
@@ -78,10 +86,13 @@ const char* UnitOf(Kind kind) {
       return "%";
     case Kind::kPenetration:
     case Kind::kFootDrift:
+    case Kind::kFootTravel:
     case Kind::kFloor:
     case Kind::kHold:
     case Kind::kWriteBack:
       return "m";
+    case Kind::kFootAcceleration:
+      return "m/s^2";
   }
   return "";
 }
@@ -103,6 +114,9 @@ std::string WorstPlace(const solver::RequirementCheck& check, const std::array<B
       return pair("through");
     case Kind::kPenetration:
       return pair("in");
+    case Kind::kFootTravel:
+    case Kind::kFootAcceleration:
+      return check.limbs.empty() ? frame : fmt::format("{}, {}", frame, node(0));
     case Kind::kFootDrift:
     case Kind::kHold:
       return frame;

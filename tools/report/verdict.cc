@@ -107,6 +107,11 @@ std::string MissedBy(const ReadRequirement& r) {
       return "The bodies overlap by " + allowed;
     case Kind::kFootDrift:
       return fmt::format("A planted foot of {} drifts by {}", who, allowed);
+    case Kind::kFootTravel:
+      return fmt::format("A free foot of {} slides over the floor by {}", who, allowed);
+    case Kind::kFootAcceleration:
+      return fmt::format("A foot of {} lands or lifts off with {:.1f} m/s², {:.1f} allowed", who,
+                         value, limit);
     case Kind::kFloor:
       return fmt::format("{} goes below the floor by {}", who, allowed);
     case Kind::kHold:

@@ -117,6 +117,7 @@ std::vector<std::string> StudioClips::Arguments(const std::string& id, int f) co
         {"--up-", own.up},
         {"--map-", own.map},
         {"--skip-frames-", own.skip_frames ? std::to_string(own.skip_frames) : ""},
+        {"--ik-targets-", own.ik_targets != "follow" ? own.ik_targets : ""},
         {"--amc-fps-", own.amc_fps != 120 ? fmt::format("{}", own.amc_fps) : ""}};
     for (const auto& [name, value] : options) {
       if (value.empty()) continue;

@@ -1,6 +1,7 @@
 #include "solver/problem/term_table.h"
 
 #include "solver/problem/terms/foot_lock.h"
+#include "solver/problem/terms/foot_swing.h"
 #include "solver/problem/terms/ground.h"
 #include "solver/problem/terms/hold.h"
 #include "solver/problem/terms/joint_limit.h"
@@ -22,6 +23,7 @@ std::vector<WeightedTerm> MakeTerms(const Scene& scene, const Settings& settings
   add(std::make_unique<PoseTracking>(scene, settings.joint_weights), w.pose_tracking);
   add(std::make_unique<RootTracking>(scene), w.root_tracking);
   add(std::make_unique<FootLock>(scene), w.foot_lock);
+  add(std::make_unique<FootSwing>(scene), w.foot_swing);
   add(std::make_unique<HoldTerm>(), w.hold);
   add(std::make_unique<Penetration>(), w.penetration);
   add(std::make_unique<SelfPenetration>(scene), w.self_penetration);

@@ -185,8 +185,13 @@ TEST(GltfMalformed, SaysWhatIsWrong) {
       {[](GltfMaker* m) { m->document["asset"]["version"] = "1.0"; },
        "asset.version: expected \"2.0\", found \"1.0\""},
       {[](GltfMaker* m) { m->document.erase("asset"); }, "asset: expected an object"},
-      {[](GltfMaker* m) { m->document["extensionsRequired"] = {"EXT_meshopt_compression"}; },
-       "its data are compressed"},
+      {[](GltfMaker* m) {
+         m->document["extensionsRequired"] = {"EXT_meshopt_compression"};
+         for (auto& view : m->document["bufferViews"]) {
+           view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}};
+         }
+       },
+       "its data are compressed (EXT_meshopt_compression)"},
       {[](GltfMaker* m) { m->document["nodes"][4]["extras"] = kNan; }, ""},
       {[](GltfMaker* m) {
          m->document["images"] = {{{"uri", "/etc/passwd"}}, 5};

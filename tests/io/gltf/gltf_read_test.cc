@@ -342,9 +342,17 @@ TEST(GltfRead, TellsAnimationsAndCharactersApart) {
   EXPECT_EQ(MessageOf(bytes), "a.glb: 3 animations, select one: 0 \"walk\", 1 \"run\", 2 \"1\"");
   EXPECT_EQ(MessageOf(bytes, {"run", ""}),
             "a.glb: 2 characters, select one by its skin: skin 0 \"person\", skin 1, "
-            "skin 2 \"two\"");
+            "skin 2 \"two\"; or as #figure=0 (hips), #figure=1 (other)");
   EXPECT_EQ(MessageOf(bytes, {"fly", "two"}),
             "a.glb: no animation \"fly\", expected one of 0 \"walk\", 1 \"run\", 2 \"1\"");
+  for (const char* figure : {"1", "other", "two"}) {
+    const GltfClip clip = ParseGltf(bytes, "a.glb", "", {"run", "", figure});
+    EXPECT_EQ(clip.motion.rig.joints[0].name, "other") << figure;
+    EXPECT_TRUE(clip.is_one_of_several);
+  }
+  EXPECT_EQ(ParseGltf(bytes, "a.glb", "", {"run", "", "0"}).skins, (std::vector<int>{0, 1}));
+  EXPECT_EQ(MessageOf(bytes, {"run", "", "2"}),
+            "a.glb: no figure \"2\", expected one of #figure=0 (hips), #figure=1 (other)");
   EXPECT_NE(MessageOf(bytes, {"run", "3"}).find("no skin \"3\""), std::string::npos);
   const auto root = [&](const char* animation, const char* skin) {
     const GltfClip clip = ParseGltf(bytes, "a.glb", "", {animation, skin});
@@ -616,6 +624,104 @@ TEST(GltfVrm, VrmaBringsTheMotionOfABareSkeleton) {
   EXPECT_EQ(clip.joints.size(), std::size(kVrmBones)) << "bones that do not move count too";
   EXPECT_EQ(clip.motion.num_frames(), 4);
   EXPECT_LT(CompareAll(clip, GltfOracle(maker.Glb()), 0, true).position, 1e-6);
+}
+
+// A character with a tube of skin about its two bones.
+GltfMaker SkinnedTube() {
+  GltfMaker maker;
+  maker.AddNode("hip", -1, Vec3(0, 0, 0));
+  maker.AddNode("knee", 0, Vec3(0, 0.4, 0));
+  std::vector<float> position, weights;
+  std::vector<std::uint16_t> joints;
+  for (int v = 0; v < 40; ++v) {
+    for (const float f : Floats(Vec3(0.1 * std::cos(v), 0.02 * v, 0.1 * std::sin(v)))) {
+      position.push_back(f);
+    }
+    joints.insert(joints.end(), {static_cast<std::uint16_t>(v / 20), 0, 0, 0});
+    weights.insert(weights.end(), {1, 0, 0, 0});
+  }
+  std::vector<float> inverse;
+  for (const double y : {0.0, -0.4}) {
+    for (const float f : {1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., y, 0., 1.}) {
+      inverse.push_back(f);
+    }
+  }
+  const int p = maker.AddArray(position, "VEC3"), j = maker.AddArray(joints, "VEC4"),
+            w = maker.AddArray(weights, "VEC4"), b = maker.AddArray(inverse, "MAT4");
+  maker.document["meshes"].push_back(
+      {{"primitives", {{{"attributes", {{"POSITION", p}, {"JOINTS_0", j}, {"WEIGHTS_0", w}}}}}}});
+  maker.document["skins"].push_back({{"joints", {0, 1}}, {"inverseBindMatrices", b}});
+  maker.AddNode("mesh", -1, Vec3::Zero());
+  maker.document["nodes"][2]["mesh"] = 0;
+  maker.document["nodes"][2]["skin"] = 0;
+  return maker;
+}
+
+TEST(GltfCompression, ASkinThatCannotBeReadIsSaidAndHasNoWidth) {
+  const auto radii = [](const GltfClip& clip) { return BoneRadii(clip); };
+  const GltfClip plain = ParseGltf(SkinnedTube().Glb(), "a.glb", "");
+  EXPECT_TRUE(plain.notes.empty());
+  EXPECT_NEAR(radii(plain)[0], 0.1, 1e-3);
+
+  GltfMaker draco = SkinnedTube();
+  draco.document["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+  draco.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  draco.document["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", 0}, {"attributes", {{"POSITION", 0}, {"JOINTS_0", 1}, {"WEIGHTS_0", 2}}}};
+  for (int a = 0; a < 3; ++a) draco.document["accessors"][a].erase("bufferView");
+
+  GltfMaker meshopt = SkinnedTube();
+  meshopt.document["extensionsUsed"] = {"EXT_meshopt_compression"};
+  meshopt.document["extensionsRequired"] = {"EXT_meshopt_compression"};
+  meshopt.document["buffers"][1] = {{"byteLength", 4096}};
+  meshopt.document["buffers"][1]["extensions"]["EXT_meshopt_compression"]["fallback"] = true;
+  for (int v = 0; v < 3; ++v) {
+    auto& view = meshopt.document["bufferViews"][v];
+    view["extensions"]["EXT_meshopt_compression"] = {
+        {"buffer", 0}, {"byteLength", 16}, {"byteStride", 4}, {"count", 4}, {"mode", "ATTRIBUTES"}};
+    view["buffer"] = 1;
+  }
+
+  for (const auto& [maker, name] :
+       {std::pair(&draco, "KHR_draco_mesh_compression"), {&meshopt, "EXT_meshopt_compression"}}) {
+    const GltfClip clip = ParseGltf(maker->Glb(), "a.glb", "");
+    ASSERT_EQ(clip.notes.size(), 1U) << name;
+    EXPECT_EQ(clip.notes[0],
+              std::string("the mesh is compressed (") + name +
+                  "): the width of the skin cannot be read, and capsules are as wide as tabulated "
+                  "where they would follow it; export it uncompressed");
+    EXPECT_EQ(radii(clip), std::vector<double>(2, 0.0)) << name;
+  }
+
+  // What the motion or the rig needs cannot be done without.
+  meshopt.document["bufferViews"][3]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}};
+  EXPECT_EQ(MessageOf(meshopt.Glb()),
+            "a.glb: its data are compressed (EXT_meshopt_compression): export it uncompressed");
+  // With a fallback that holds the data, the extension is not required.
+  meshopt = SkinnedTube();
+  meshopt.document["extensionsUsed"] = {"EXT_meshopt_compression"};
+  meshopt.document["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}};
+  EXPECT_NEAR(radii(ParseGltf(meshopt.Glb(), "a.glb", ""))[0], 0.1, 1e-3);
+}
+
+// A player of VRM animations takes the first; so do we.
+TEST(GltfVrm, OfSeveralAnimationsOfAVrmaTheFirstIsMeant) {
+  GltfMaker maker = VrmFigure(false);
+  auto& bones = maker.document["extensions"]["VRMC_vrm_animation"]["humanoid"]["humanBones"];
+  for (const char* bone : kVrmBones) bones[bone]["node"] = NodeOfBone(bone);
+  std::mt19937 random(10);
+  for (const int keys : {4, 7}) {
+    const int a = maker.AddAnimation("clip" + std::to_string(keys));
+    maker.AddChannel(a, 1, "rotation", maker.AddArray(Times(keys, 30), "SCALAR"),
+                     maker.AddArray(SomeRotations(&random, keys), "VEC4"));
+  }
+  const GltfClip clip = ParseGltf(maker.Glb(), "a.vrma", "");
+  EXPECT_EQ(clip.animation, "clip4");
+  ASSERT_EQ(clip.notes.size(), 1U);
+  EXPECT_NE(clip.notes[0].find("2 animations, the first is taken"), std::string::npos);
+  GltfSelect second;
+  second.animation = "clip7";
+  EXPECT_EQ(ParseGltf(maker.Glb(), "a.vrma", "", second).motion.num_frames(), 7);
 }
 
 TEST(GltfVrm, LacksWhatTheModelLacksAndRefusesWhatCannotBe) {

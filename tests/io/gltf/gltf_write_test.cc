@@ -10,6 +10,7 @@
 #include <random>
 
 #include "io/gltf/clip.h"
+#include "io/gltf/container.h"
 #include "tests/io/gltf/gltf_maker.h"
 #include "tests/io/gltf/gltf_oracle.h"
 
@@ -55,6 +56,30 @@ RigMotion Changed(const RigMotion& motion, int frames, int seed) {
     out.frames.push_back(frame);
   }
   return out;
+}
+
+// Of a VRM animation the new motion comes first, once and again; the old ones follow as they were.
+TEST(GltfWrite, AVrmaBeginsWithTheNewMotion) {
+  GltfMaker maker = AnimatedCharacter();
+  maker.document["extensions"]["VRMC_vrm_animation"] = {{"specVersion", "1.0"}};
+  const auto names = [](const std::string& bytes) {
+    const auto document = nlohmann::json::parse(SplitGltf(bytes, "a").json);
+    std::vector<std::string> out;
+    for (const auto& animation : document.at("animations")) out.push_back(animation.at("name"));
+    return out;
+  };
+  const GltfClip clip = ParseGltf(maker.Glb(), "a.vrma", "");
+  const std::string once = FormatGltf(clip, clip.motion, 0, "new");
+  EXPECT_EQ(names(once), (std::vector<std::string>{"new", "captured"}));
+  GltfSelect select;
+  select.animation = "captured";
+  const GltfClip again = ParseGltf(once, "a.vrma", "", select);
+  EXPECT_EQ(names(FormatGltf(again, again.motion, 0, "new")),
+            (std::vector<std::string>{"new", "captured"}));
+  EXPECT_EQ(names(FormatGltf(again, again.motion, 0, "captured")),
+            (std::vector<std::string>{"captured", "new"}));
+  EXPECT_EQ(nlohmann::json::parse(SplitGltf(once, "a").json).at("animations")[1],
+            nlohmann::json::parse(SplitGltf(maker.Glb(), "a").json).at("animations")[0]);
 }
 
 double AngleBetween(const Matrix4& a, const Matrix4& b) {

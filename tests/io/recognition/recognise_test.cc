@@ -136,8 +136,8 @@ Names BonesOf(const RigFacts& facts, const RigMotion& motion) {
 
 TEST(RecogniseTest, FigureInEveryUnit) {
   for (const auto& [unit, metres] :
-       {std::pair("m", 1.0), std::pair("cm", 0.01), std::pair("mm", 0.001), std::pair("in", 0.0254),
-        std::pair("cmu", 0.0254 / 0.45)}) {
+       {std::pair("m", 1.0), std::pair("cm", 0.01), std::pair("mm", 0.001), std::pair("dm", 0.1),
+        std::pair("in", 0.0254), std::pair("cmu", 0.0254 / 0.45)}) {
     Figure figure(ClassicNames());
     figure.Scale(0.01 / metres);
     const RigFacts facts = Recognise(figure.motion, {}, "f.bvh");
@@ -169,6 +169,67 @@ TEST(RecogniseTest, ImplausibleHeightNeedsUnits) {
   const RigFacts facts = Recognise(figure.motion, {.metres_per_unit = 0.0033, .up = {}}, "f.bvh");
   EXPECT_EQ(facts.unit_name, "0.0033");
   EXPECT_NEAR(facts.stature, 1.623, 0.01);
+}
+
+// In every pair of units in which a figure is a human, the one that makes an adult is meant.
+TEST(RecogniseTest, AnAdultComesBeforeAChild) {
+  Figure figure(ClassicNames());
+  const double height = Recognise(figure.motion, {}, "f.bvh").stature;
+  int checked = 0;
+  for (const auto& [unit, metres] : {std::pair("m", 1.0),
+                                     {"cm", 0.01},
+                                     {"mm", 0.001},
+                                     {"dm", 0.1},
+                                     {"in", 0.0254},
+                                     {"cmu", 0.0254 / 0.45}}) {
+    for (double stature = 1.42; stature < 2.1; stature += 0.04) {
+      Figure adult(ClassicNames());
+      adult.Scale(0.01 * stature / height / metres);
+      const RigFacts facts = Recognise(adult.motion, {}, "f.bvh");
+      EXPECT_EQ(facts.unit_name, unit) << stature;
+      ++checked;
+    }
+  }
+  EXPECT_EQ(checked, 6 * 17);
+}
+
+// A stature that is given settles the unit, listed or not, where no unit makes an adult.
+TEST(RecogniseTest, AGivenStatureSettlesTheUnit) {
+  RecogniseOptions options;
+  options.stature = 1.62;
+  for (const double scale : {0.003, 0.02, 0.03, 3.0, 30.0, 2000.0}) {
+    Figure figure(ClassicNames());
+    figure.Scale(scale);
+    const RigFacts facts = Recognise(figure.motion, options, "f.bvh");
+    const double cm = Recognise(Figure(ClassicNames()).motion, {}, "f.bvh").stature;
+    EXPECT_NEAR(facts.stature, 1.62, 1e-9) << scale;
+    EXPECT_NEAR(facts.metres_per_unit, 0.01 / scale * 1.62 / cm, 1e-9) << scale;
+    EXPECT_TRUE(HasNote(facts, "the unit is taken from its stature"));
+    EXPECT_FALSE(HasNote(facts, "is unusual"));
+  }
+  // A child's, in a unit that is listed.
+  options.stature = 1.05;
+  Figure child(ClassicNames());
+  child.Scale(0.62);
+  EXPECT_EQ(Recognise(child.motion, options, "f.bvh").unit_name, "cm");
+  // An adult's unit is known: the body is scaled, not the file.
+  options.stature = 1.3;
+  EXPECT_EQ(Recognise(Figure(ClassicNames()).motion, options, "f.bvh").unit_name, "cm");
+}
+
+TEST(RecogniseTest, LimbsWithoutLengthAreRefused) {
+  for (const auto& [joint, limb] :
+       {std::pair("left_elbow", "the left upper arm has no length: 'LeftShoulder' and 'LeftElbow'"),
+        {"right_wrist", "the right forearm has no length: 'RightElbow' and 'RightWrist'"},
+        {"left_knee", "the left thigh has no length: 'LeftHip' and 'LeftKnee'"},
+        {"right_ankle", "the right shin has no length: 'RightKnee' and 'RightAnkle'"}}) {
+    Figure figure(ClassicNames());
+    const int at = figure.Index(joint);
+    figure.motion.rig.joints[at].offset.setZero();
+    figure.motion.frames[0].translation[at].setZero();
+    EXPECT_EQ(Message(figure.motion),
+              std::string("f.bvh: ") + limb + " stand in one place, expected a bone between them");
+  }
 }
 
 TEST(RecogniseTest, OptionsWin) {
@@ -342,6 +403,7 @@ TEST(RecogniseTest, Units) {
   EXPECT_DOUBLE_EQ(*ParseUnits("m"), 1);
   EXPECT_DOUBLE_EQ(*ParseUnits("cm"), 0.01);
   EXPECT_DOUBLE_EQ(*ParseUnits("mm"), 0.001);
+  EXPECT_DOUBLE_EQ(*ParseUnits("dm"), 0.1);
   EXPECT_DOUBLE_EQ(*ParseUnits("in"), 0.0254);
   EXPECT_NEAR(*ParseUnits("cmu"), 0.0564444, 1e-7);
   EXPECT_DOUBLE_EQ(*ParseUnits("1.35"), 1.35);

@@ -124,15 +124,16 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
       }
     }
   }
-  for (const auto& term : {"pose_tracking", "root_tracking", "foot_lock", "hold", "penetration",
-                           "self_penetration", "ground", "tangle", "joint_limit", "rig_turn"}) {
+  for (const auto& term :
+       {"pose_tracking", "root_tracking", "foot_lock", "foot_swing", "hold", "penetration",
+        "self_penetration", "ground", "tangle", "joint_limit", "rig_turn"}) {
     const Checked& c = checked[term];
     std::printf("%-17s %6d rows %8d entries %7d not zero %3d frames skipped\n", term, c.rows,
                 c.entries, c.nonzero, c.skipped);
     EXPECT_GT(c.rows, 20) << term;
     EXPECT_GT(c.nonzero, 60) << term;
   }
-  EXPECT_EQ(checked.size(), 10u);
+  EXPECT_EQ(checked.size(), 11u);
 }
 
 TEST(Terms, PartsAreOfTheSceneAndAddUpToTheTerm) {
@@ -173,7 +174,8 @@ TEST(Terms, PartsAreOfTheSceneAndAddUpToTheTerm) {
       term->Evaluate(frame, &whole);
       EXPECT_EQ(of_parts, whole.residual()) << term->name();
       const std::string name = term->name();
-      if (name == "foot_lock" || name == "root_tracking" || name == "pose_tracking") {
+      if (name == "foot_lock" || name == "foot_swing" || name == "root_tracking" ||
+          name == "pose_tracking") {
         EXPECT_EQ(term->row_slots(frame), whole.num_rows()) << name;
         always_on += whole.num_rows();
       }
@@ -181,7 +183,7 @@ TEST(Terms, PartsAreOfTheSceneAndAddUpToTheTerm) {
   }
   EXPECT_EQ(kinds[PartKind::kHold], 1);
   EXPECT_EQ(kinds[PartKind::kTag], 1);
-  EXPECT_EQ(kinds[PartKind::kContact], 1);
+  EXPECT_EQ(kinds[PartKind::kContact], 2);
   EXPECT_GT(always_on, 20);
 }
 
@@ -281,7 +283,7 @@ double TrackingCost(const Scene& scene, const Settings& settings,
 TEST(Terms, TrackingIsTheDistanceFromTheSource) {
   Settings settings;
   const double pose_weight = settings.weights.pose_tracking;
-  settings.weights = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  settings.weights = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   settings.weights.pose_tracking = pose_weight;
   settings.weights.root_tracking = 6;
   for (const bool follow : {false, true}) {

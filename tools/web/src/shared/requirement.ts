@@ -7,6 +7,8 @@ export type RequirementKind =
   | "penetration"
   | "penetration_over_1cm"
   | "foot_drift"
+  | "foot_travel"
+  | "foot_acceleration"
   | "floor"
   | "hold"
   | "segment_length"
@@ -19,7 +21,7 @@ export interface Requirement {
   figure: FigureName | null;
   frame: number | null; // of the worst
   limbs: { figure: FigureName; node: string }[];
-  value: number;
+  value: number | null; // null: there was nothing to judge
   limit: number;
   unit: string;
   met: boolean;

@@ -136,7 +136,7 @@ export class RunView {
           { class: met ? "" : "missed", title: where },
           element("td", { class: met ? "good" : "bad" }, met ? "✓" : "✕"),
           element("td", {}, name),
-          element("td", { class: "number" }, measured(value, unit)),
+          element("td", { class: "number" }, value === null ? "none" : measured(value, unit)),
         ),
     );
     const files = kFiles.map((name) =>

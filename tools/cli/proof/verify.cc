@@ -1,4 +1,4 @@
-// `retarget verify DIR`: every metric again, from the written files alone.
+// `retarget verify DIR`: every metric again and the proof, from the written files alone.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "io/settings_file.h"
 #include "io/text/read_file.h"
 #include "tools/cli/commands.h"
+#include "tools/proof/scene_proof.h"
 #include "tools/report/measured_scene.h"
 #include "tools/report/metrics_table.h"
 #include "tools/report/requirement_json.h"
@@ -21,24 +22,25 @@ namespace {
 // Largest distance of the written rig to the scene (m), from the files.
 double WriteBackOf(const report::Json& written, const std::string& folder, int f,
                    const solver::MotionView& scene, const Body& body) {
-  const std::string file = written.at("file");
-  io::ClipPath path;
-  path.path = folder + "/" + file;
+  io::PlayedFile file;
+  file.format = written.at("format");
+  file.name = folder + "/" + written.at("file").get<std::string>();
+  file.bytes = io::ReadFile(file.name);
+  file.folder = folder;
+  file.animation = written.value("animation", "");
+  file.fps = written.value("fps", io::kAcclaimFps);
   if (written.contains("skeleton")) {
-    path.skeleton = folder + "/" + written.at("skeleton").get<std::string>();
+    file.skeleton = io::ReadFile(folder + "/" + written.at("skeleton").get<std::string>());
   }
-  path.select.animation = written.value("animation", "");
-  path.select.skin = written.value("skin", "");
-  const RigMotion motion = io::ReadClipFile(path, written.value("fps", io::kAcclaimFps)).motion;
-  std::vector<report::NodeJoint> joints;
+  file.rest_frames = std::max(0, written.value("rest_frames", 0));
+  std::vector<report::NodePlayed> joints;
   for (const auto& [node, bone] : written.at("joints").items()) {
-    const int joint = motion.rig.Find(bone.get<std::string>());
-    if (joint < 0)
-      throw InputError(folder + "/" + file + ": has no joint " + bone.get<std::string>());
+    io::PlayedJoint joint{bone.get<std::string>()};
+    if (written.contains("nodes")) joint.node = written.at("nodes").value(node, -1);
     joints.push_back({body.FindNode(node), joint});
   }
   const std::string up = written.at("up");
-  return report::WriteBackError(motion, motion.rig, written.at("units"), up[0], joints, scene, f);
+  return report::WriteBackError(file, written.at("units"), up[0], joints, scene, f);
 }
 
 void CheckFrames(const report::MeasuredScene& scene, const std::string& path, int frames) {
@@ -49,7 +51,7 @@ void CheckFrames(const report::MeasuredScene& scene, const std::string& path, in
 
 }  // namespace
 
-int RunVerify(const std::string& folder, bool json) {
+int RunVerify(const std::string& folder, bool samples, bool json) {
   const std::string report_path = folder + "/report.json";
   const report::Json report = report::ReadReport(folder);
   const solver::MetricsContext subject = report::SubjectFromJson(report, report_path);
@@ -95,17 +97,24 @@ int RunVerify(const std::string& folder, bool json) {
     if (check.kind == solver::RequirementKind::kWriteBack) check.file = file[check.figure];
     checks.push_back(check);
   }
+  std::optional<solver::Proof> proved;
+  if (!samples) {
+    proved = proof::ProveScene(scene.scene(), subject, settings.requirements);
+    solver::JudgeByProof(*proved, &checks);
+  }
   const bool all_met = solver::AllMet(checks);
   const solver::Metrics* baseline_metrics = baseline ? &baseline->metrics() : nullptr;
   if (json) {
-    const report::Json out = {{"requirements_met", all_met},
-                              {"requirements", report::ChecksJson(checks, subject.body)},
-                              {"metrics", report::ThreeMetricsJson(subject, source.metrics(),
-                                                                   baseline_metrics, metrics)}};
+    report::Json out = {{"requirements_met", all_met},
+                        {"requirements", report::ChecksJson(checks, subject.body)},
+                        {"metrics", report::ThreeMetricsJson(subject, source.metrics(),
+                                                             baseline_metrics, metrics)}};
+    if (proved) out["proof"] = proof::ProofJson(*proved, subject);
     fmt::print("{}\n", out.dump(1));
   } else {
     fmt::print("{}",
                report::MetricsTable(subject, source.metrics(), baseline_metrics, metrics, checks));
+    if (proved) fmt::print("{}\n", proof::ProofSentence(*proved, subject));
     fmt::print("{}\n", all_met ? "every requirement is met" : "a requirement is MISSED, see above");
   }
   return all_met ? kDone : kMissed;
