@@ -71,7 +71,7 @@ class BandedStage {
     Accept();
     double damping = settings.initial_damping;
     result_->stalled = false;
-    StageEnd end(context_.tolerance, cost);
+    StageEnd end(context_.tolerance, cost, scene_.num_frames() == 1);
     int rejected = 0;  // linear solves in a row without a sound step
     for (int iterations = 0; iterations < context_.iterations_left;) {
       if (context_.seconds_left > 0 && SecondsNow() - context_.started > context_.seconds_left) {

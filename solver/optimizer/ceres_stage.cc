@@ -246,7 +246,10 @@ class StageCallback : public ceres::IterationCallback {
       status = SolveStatus::kInterrupted;
       return ceres::SOLVER_ABORT;
     }
-    if (!end_) end_.emplace(context_.tolerance, summary.cost + summary.cost_change);
+    if (!end_) {
+      end_.emplace(context_.tolerance, summary.cost + summary.cost_change,
+                   context_.problem->scene().num_frames() == 1);
+    }
     const bool free = summary.trust_region_radius > kFreeRadius;
     return end_->Add(summary.cost, iteration.step_m, free) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
                                                            : ceres::SOLVER_CONTINUE;

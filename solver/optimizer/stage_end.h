@@ -7,8 +7,10 @@ namespace retarget::solver {
 
 class StageEnd {
  public:
-  // `tolerance` is of the cost; `cost` that of the start.
-  StageEnd(double tolerance, double cost) : tolerance_(tolerance), costs_{cost} {}
+  // `tolerance` is of the cost; `cost` that of the start. Single frames are `patient`: their
+  // iterations cost nothing, and only free steps end them.
+  StageEnd(double tolerance, double cost, bool patient)
+      : tolerance_(tolerance), patient_(patient), costs_{cost} {}
 
   // One accepted iteration: the cost after it, the way of the furthest node (m), and whether the
   // step was free, that is, not held short by the guard or the damping. A step that was held short
@@ -17,9 +19,11 @@ class StageEnd {
   bool Add(double cost, double step_m, bool free) {
     const double before = costs_.back();
     costs_.push_back(cost);
-    flat_ = (free || step_m < kStill) && before - cost < tolerance_ * before ? flat_ + 1 : 0;
+    flat_ = (free || (step_m < kStill && !patient_)) && before - cost < tolerance_ * before
+                ? flat_ + 1
+                : 0;
     if (flat_ >= kFlat) return true;
-    if (costs_.size() <= kWindow) return false;
+    if (patient_ || costs_.size() <= kWindow) return false;
     const double gained = costs_.front() - cost;
     const double worth = tolerance_ * costs_.front();
     costs_.pop_front();
@@ -32,6 +36,7 @@ class StageEnd {
   static constexpr size_t kWindow = 5;    // iterations, free or not, that gain less than one should
 
   double tolerance_;
+  bool patient_;
   std::deque<double> costs_;
   int flat_ = 0;
 };

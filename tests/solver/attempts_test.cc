@@ -33,9 +33,8 @@ RetargetResult Apart() {
 }
 
 bool Says(const std::vector<std::string>& warnings, const std::string& text) {
-  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) {
-    return w.find(text) != std::string::npos;
-  });
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string& w) { return w.find(text) != std::string::npos; });
 }
 
 TEST(Attempts, WhatMeetsEverythingIsSolvedOnce) {
