@@ -340,6 +340,11 @@ PlayedFile PlayedFileOf(const ClipFile& original, const std::vector<NamedBytes>&
   played.format = original.format;
   played.name = files[0].name;
   played.bytes = files[0].bytes;
+  if (const auto* bvh = std::get_if<BvhFile>(&original.original)) {
+    for (size_t j = 0; j < bvh->adds_offset.size(); ++j) {
+      if (bvh->adds_offset[j]) played.displaced.push_back(static_cast<int>(j));
+    }
+  }
   if (original.format == "Acclaim") {
     played.skeleton = files[1].bytes;
     played.fps = 1 / original.motion.frame_time;

@@ -70,6 +70,11 @@ std::vector<NamedFact> InspectClip(const std::string& text) {
     if (joint.parent < 0) roots += (roots.empty() ? "" : ", ") + Printable(joint.name);
   }
   facts.push_back({"roots", roots});
+  std::string figures;
+  for (const std::string& figure : clip.figures) {
+    figures += (figures.empty() ? "" : ", ") + Printable(figure);
+  }
+  if (!figures.empty()) facts.push_back({"figures", figures});
   const auto count = [&](auto predicate) {
     return std::to_string(
         std::count_if(motion.rig.joints.begin(), motion.rig.joints.end(), predicate));

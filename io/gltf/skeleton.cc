@@ -116,12 +116,37 @@ class SkeletonBuilder {
       const int parent = gltf_.parent[n];
       below[n] = parent >= 0 && (below[parent] || chosen_[parent]);
     }
+    if (!bare) ChooseBeside(has_mesh);
     std::vector<bool> carries = leads_;  // a seed or something that moves
     for (auto it = gltf_.order.rbegin(); it != gltf_.order.rend(); ++it) {
       const int n = *it, parent = gltf_.parent[n];
       carries[n] = carries[n] || (below[n] && IsMoved(n));
       if (below[n] && (carries[n] || !has_mesh[n])) chosen_[n] = true;
       if (parent >= 0) carries[parent] = carries[parent] || carries[n];
+    }
+  }
+
+  // What hangs beside a root from the same armature and carries no mesh: targets of inverse
+  // kinematics and the like. Another character's bones do not.
+  void ChooseBeside(const std::vector<bool>& has_mesh) {
+    const size_t count = model_.nodes.size();
+    std::vector<bool> foreign(count), armature(count);
+    for (const tinygltf::Skin& skin : model_.skins) {
+      for (const int joint : skin.joints) foreign[joint] = !seeds_.contains(joint);
+    }
+    for (auto it = gltf_.order.rbegin(); it != gltf_.order.rend(); ++it) {
+      const int n = *it, parent = gltf_.parent[n];
+      foreign[n] = foreign[n] || model_.nodes[n].camera >= 0;
+      if (parent < 0) continue;
+      foreign[parent] = foreign[parent] || foreign[n];
+      armature[parent] = armature[parent] || (chosen_[n] && !chosen_[parent]);
+    }
+    std::vector<bool> beside(count);
+    for (const int n : gltf_.order) {
+      const int parent = gltf_.parent[n];
+      if (parent < 0) continue;
+      beside[n] = beside[parent] || (armature[parent] && !leads_[n] && !has_mesh[n] && !foreign[n]);
+      chosen_[n] = chosen_[n] || beside[n];
     }
   }
 

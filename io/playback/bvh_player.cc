@@ -104,21 +104,24 @@ class BvhPlayer {
     if (std::abs(1 / frame_time_ - rate) < 2e-4 * rate) frame_time_ = 1 / rate;
     for (int f = 0; f < count; ++f) {
       frames_.emplace_back();
-      for (const Bone& bone : bones_) frames_.back().push_back(ReadBone(bone, &at));
+      for (int j = 0; j < static_cast<int>(bones_.size()); ++j) {
+        const bool displaced = std::ranges::find(file_.displaced, j) != file_.displaced.end();
+        frames_.back().push_back(ReadBone(bones_[static_cast<size_t>(j)], displaced, &at));
+      }
     }
     const size_t rest = static_cast<size_t>(std::max(file_.rest_frames, 0));
     if (frames_.size() <= rest || !(frame_time_ > 0)) throw InputError(file_.name + ": no frames");
     frames_.erase(frames_.begin(), frames_.begin() + static_cast<long>(rest));
   }
 
-  LocalTransform ReadBone(const Bone& bone, size_t* at) const {
+  LocalTransform ReadBone(const Bone& bone, bool displaced, size_t* at) const {
     LocalTransform out;
     out.translation = bone.offset;
     for (const std::string& channel : bone.channels) {
       const int axis = channel[0] - 'x';
       const double value = Number(at);
       if (channel.substr(1) == "position") {
-        out.translation[axis] = value;
+        out.translation[axis] = value + (displaced ? bone.offset[axis] : 0);
       } else {
         out.rotation = out.rotation * Eigen::AngleAxisd(value * kDegree, Vec3::Unit(axis));
       }

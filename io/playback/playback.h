@@ -21,6 +21,9 @@ struct PlayedFile {
   std::string animation;  // glTF: the name of the one to play
   double fps = 120;       // Acclaim: which does not say
   int rest_frames = 0;    // BVH: frames before the motion, such as a T-pose
+  // BVH: joints, counted in the file from 0, whose position channels are added to their OFFSET; of
+  // all others they stand for it.
+  std::vector<int> displaced = {};
 };
 
 // A joint by its name, the first of that name; of glTF by its node's index where that is given.

@@ -240,25 +240,37 @@ bool TellSides(const Rig& rig, const std::vector<PosedRig>& poses, JointMap* map
   return true;
 }
 
-// Whether the trunk ever continues the legs, as a human's does and an animal's does not.
-bool TrunkContinuesLegs(const std::vector<PosedRig>& poses, const RigPoints& p) {
-  constexpr double kCosine = 0.5;
-  return std::any_of(poses.begin(), poses.end(), [&](const PosedRig& pose) {
+// Whether the trunk continues the legs, as a human's does and an animal's does not: at rest, or
+// nearly straight in most poses, since a galloping animal stretches its legs. Legs end at the toes,
+// on which animals stand.
+bool TrunkContinuesLegs(const Rig& rig, const std::vector<PosedRig>& poses, const RigPoints& p) {
+  constexpr double kAtRest = 0.5, kStraight = 0.8;  // cosines
+  const auto foot = [](const RigPoints::Side& side) {
+    return side.toe.known() ? side.toe : side.ankle;
+  };
+  const auto continues = [&](const PosedRig& pose, double cosine) {
     const Vec3 trunk = At(pose, p.neck) - At(pose, p.root);
-    const Vec3 legs = At(pose, p.left.hip) + At(pose, p.right.hip) - At(pose, p.left.ankle) -
-                      At(pose, p.right.ankle);
-    return trunk.dot(legs) > kCosine * trunk.norm() * legs.norm();
-  });
+    const Vec3 legs = At(pose, p.left.hip) + At(pose, p.right.hip) - At(pose, foot(p.left)) -
+                      At(pose, foot(p.right));
+    return trunk.dot(legs) > cosine * trunk.norm() * legs.norm();
+  };
+  RigFrame rest;
+  for (const RigJoint& joint : rig.joints) {
+    rest.translation.push_back(joint.offset);
+    rest.rotation.push_back(joint.rest_rotation);
+  }
+  const auto straight = std::ranges::count_if(
+      poses, [&](const PosedRig& pose) { return continues(pose, kStraight); });
+  return continues(PoseRig(rig, rest), kAtRest) || 2 * static_cast<size_t>(straight) > poses.size();
 }
-
-constexpr const char* kAnimal =
-    "the trunk lies across the legs in every frame, as that of an animal does";
 
 }  // namespace
 
 std::string ShapeFault(const Rig& rig, const std::vector<PosedRig>& poses, const JointMap& map) {
   const RigPoints points = FindPoints(rig, poses, map, FindChestBone(rig, poses, map));
-  if (!TrunkContinuesLegs(poses, points)) return kAnimal;
+  if (!TrunkContinuesLegs(rig, poses, points)) {
+    return "the trunk lies across the legs, as that of an animal does";
+  }
   if (!HasHumanLimbs(poses, points))
     return "arms, legs and trunk have not the lengths of a human's";
   return "";
@@ -276,7 +288,7 @@ ShapeMatch MatchShape(const Rig& rig, const std::vector<PosedRig>& poses) {
     match.map = std::move(map);
   }
   if (humans == 0 && matcher.met_animal()) {
-    match.refusal = kAnimal;
+    match.refusal = "the trunk lies across the legs in every frame, as that of an animal does";
   }
   if (humans != 1) match.map.reset();
   if (humans > 1) match.refusal = "the shape of its tree can be read in more than one way";

@@ -185,7 +185,9 @@ class FollowerFinder {
                           MedianDistance(poses_, {upper, Vec3::Zero()}, {lower, Vec3::Zero()});
     const double is = MedianDistance(poses_, {lower, Vec3::Zero()}, {joint, Vec3::Zero()});
     const bool fits = is > kShort * length && is < kLong * length;
-    return fits && KeepsItsDistance(poses_, lower, joint) ? lower : -1;
+    // One that stays behind in the clip belongs to the limb all the same if it does so at rest.
+    const bool at_rest = leg && EndsShin(rig_, RestOf(rig_), s, joint);
+    return at_rest || (fits && KeepsItsDistance(poses_, lower, joint)) ? lower : -1;
   }
 
   int Nearer(int joint, bool leg) const {

@@ -281,6 +281,8 @@ class Advancer {
       case Kind::kSegmentLength:
         return Length(i);
       case Kind::kPenetrationOver1cm:
+      case Kind::kFootTravel:
+      case Kind::kFootAcceleration:
       case Kind::kWriteBack:
         break;
     }

@@ -120,6 +120,8 @@ report::Json WriteBackJson(const RunFacts& run, int f) {
     if (!file.select.skin.empty()) written["skin"] = file.select.skin;
     if (!file.select.figure.empty()) written["figure"] = file.select.figure;
   }
+  const std::vector<int> displaced = io::PlayedFileOf(file, run.rig[f].files).displaced;
+  if (!displaced.empty()) written["displaced"] = displaced;
   if (const int rest_frames = RestFramesOf(run.job, f)) written["rest_frames"] = rest_frames;
   for (const report::NodeJoint& pair : run.rig[f].joints) {
     written["joints"][run.job.input.body[f].nodes[pair.node].name] =

@@ -38,6 +38,9 @@ TEST(Playback, BvhByHand) {
   EXPECT_LT((played.position[1][0] - Vec3(1 + half, 2 + half, 3)).norm(), 1e-12);
   EXPECT_LT((played.position[2][0] - Vec3(1, 4, 3)).norm(), 1e-12);
   EXPECT_EQ(played.position[3][0], played.position[2][0]);
+  PlayedFile displaced = file;
+  displaced.displaced = {0};  // the root stands at its OFFSET and the channels' displacement
+  EXPECT_LT((Play(displaced, {{"Lower"}}, {0}).position[0][0] - Vec3(3, 3, 3)).norm(), 1e-12);
   EXPECT_EQ(Refusal(file, {{"Hand"}}), "arm.bvh: has no joint Hand");
   file.bytes = "HIERARCHY\n";
   EXPECT_EQ(Refusal(file, {{"Hand"}}), "arm.bvh: no MOTION after the hierarchy");

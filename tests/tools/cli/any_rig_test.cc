@@ -194,7 +194,10 @@ TEST(AnyRig, ClipsThatCannotBeReadSayWhatToDo) {
   EXPECT_NE(ErrorOf(clips + "cmu_16_15.asf").find("name its motion too"), std::string::npos);
   EXPECT_NE(ErrorOf(clips + "cmu_16_15.amc").find("name its skeleton too"), std::string::npos);
   EXPECT_NE(ErrorOf(characters + "m2m_human-male.glb").find("--character-a"), std::string::npos);
-  EXPECT_NE(ErrorOf(characters + "Fox.glb#animation=Walk").find("--map-a"), std::string::npos);
+  for (const char* gait : {"Survey", "Walk", "Run"}) {
+    EXPECT_NE(ErrorOf(characters + "Fox.glb#animation=" + gait).find("--map-a"), std::string::npos)
+        << gait;
+  }
   EXPECT_NE(ErrorOf(characters + "Fox.glb#animation=Fly").find("no animation \"Fly\""),
             std::string::npos);
   EXPECT_NE(ErrorOf(clips + "cmu_16_15.bvh#animation=0").find("no glTF"), std::string::npos);

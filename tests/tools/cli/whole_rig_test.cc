@@ -47,9 +47,13 @@ double GlbToScene(const Scratch& scratch) {
   return worst;
 }
 
-// The first clip of the bear hug as a GLB, with what a scale of the chest does: uneven, or changing
-// during the clip.
-std::string ScaledGlb(bool changing) {
+enum class Chest { kRigid, kUneven, kChanging };
+
+// The first clip of the bear hug as a GLB below an armature, with a scale of the chest: none,
+// uneven, or changing during the clip. Beside the figure stands the target of a hand, which is no
+// joint of the skin.
+std::string HeroGlb(Chest chest) {
+  const bool changing = chest == Chest::kChanging;
   const RigMotion motion = io::ReadBvh(kHold + "/a.bvh").motion;
   io::GltfMaker maker;
   maker.document["scene"] = 0;
@@ -57,9 +61,11 @@ std::string ScaledGlb(bool changing) {
   const int count = 61;
   const int times = maker.AddArray(io::Times(count, 1 / motion.frame_time), "SCALAR");
   json joints = json::array();
+  const int armature = maker.AddNode("Armature", -1, Vec3::Zero());
   for (int j = 0; j < motion.rig.num_joints(); ++j) {
     const RigJoint& joint = motion.rig.joints[j];
-    const int node = maker.AddNode(joint.name, joint.parent, 0.01 * joint.offset);
+    const int node = maker.AddNode(joint.name, joint.parent < 0 ? armature : joint.parent + 1,
+                                   0.01 * joint.offset);
     joints.push_back(node);
     std::vector<float> rotations, places, scales;
     for (int k = 0; k < count; ++k) {
@@ -74,13 +80,14 @@ std::string ScaledGlb(bool changing) {
     if (joint.parent < 0) {
       maker.AddChannel(a, node, "translation", times, maker.AddArray(places, "VEC3"));
     }
-    if (joint.name != "Spine1") continue;
+    if (joint.name != "Spine1" || chest == Chest::kRigid) continue;
     if (changing) {
       maker.AddChannel(a, node, "scale", times, maker.AddArray(scales, "VEC3"));
     } else {
       maker.document["nodes"][node]["scale"] = {1.2, 1.0, 0.9};
     }
   }
+  maker.AddNode("IK_Hand.L", armature, Vec3(0.6, 1.3, 0.2));
   maker.document["skins"].push_back({{"joints", joints}});
   return maker.Glb();
 }
@@ -88,7 +95,8 @@ std::string ScaledGlb(bool changing) {
 TEST(WholeRig, ScalesOfTheChestAreFollowed) {
   for (const bool changing : {false, true}) {
     const Scratch scratch;
-    const std::string clip = scratch.Write("hero.glb", ScaledGlb(changing));
+    const std::string clip =
+        scratch.Write("hero.glb", HeroGlb(changing ? Chest::kChanging : Chest::kUneven));
     ASSERT_NE(ReadWholeFile(clip).find("Spine1"), std::string::npos);
     const Outcome run = RunClip(scratch, clip);
     EXPECT_TRUE(run.code == 0 || run.code == 3) << run.err;
@@ -100,7 +108,7 @@ TEST(WholeRig, ScalesOfTheChestAreFollowed) {
 
 TEST(WholeRig, AFileThatIsElsewhereIsFound) {
   const Scratch scratch;
-  const std::string clip = scratch.Write("hero.glb", ScaledGlb(false));
+  const std::string clip = scratch.Write("hero.glb", HeroGlb(Chest::kUneven));
   RunClip(scratch, clip);
   const std::string before = RunProgram(scratch, "verify " + scratch / "out").out;
   EXPECT_EQ(before.find("MISSED write-back a"), std::string::npos) << before;
@@ -196,6 +204,35 @@ TEST(WholeRig, TargetsFollowAndWhatHangsBesideIsPlaced) {
   }
   const Outcome wrong = RunClip(scratch, clip, "--ik-targets-a bake");
   EXPECT_NE(wrong.code, 0);
+}
+
+// A target that is a node beside the joints, not animated before.
+TEST(WholeRig, ATargetThatIsNoJointFollowsItsHand) {
+  const Scratch scratch;
+  const std::string clip = scratch.Write("hero.glb", HeroGlb(Chest::kRigid));
+  const Outcome run = RunClip(scratch, clip);
+  ASSERT_TRUE(run.code == 0 || run.code == 3) << run.err;
+  EXPECT_NE(run.err.find("'IK_Hand.L' goes with 'LeftHand'"), std::string::npos) << run.err;
+  const io::GltfOracle before(ReadWholeFile(clip));
+  const io::GltfOracle after(ReadWholeFile(scratch / "out/a.glb"));
+  size_t hand = 0, target = 0;
+  for (size_t n = 0; n < after.parent.size(); ++n) {
+    const std::string name = after.document["nodes"][n].value("name", "");
+    if (name == "LeftHand") hand = n;
+    if (name == "IK_Hand.L") target = n;
+  }
+  ASSERT_GT(hand * target, 0U);
+  const int animation = after.AnimationNamed("retargeted");
+  const auto [first, last] = after.Span(animation);
+  double moved = 0;
+  for (double t = 0; t < last - first; t += 0.1) {
+    const auto was = before.Globals(0, t), is = after.Globals(animation, first + t);
+    const Vec3 a = (was[hand].inverse() * was[target]).topRightCorner<3, 1>();
+    const Vec3 b = (is[hand].inverse() * is[target]).topRightCorner<3, 1>();
+    EXPECT_LT((a - b).norm(), 1e-4) << "at " << t;
+    moved = std::max(moved, (was[target] - is[target]).topRightCorner<3, 1>().norm());
+  }
+  EXPECT_GT(moved, 0.01);
 }
 
 // The faults that were found, each with its right answer.

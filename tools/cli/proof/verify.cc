@@ -32,6 +32,7 @@ double WriteBackOf(const report::Json& written, const std::string& folder, int f
   if (written.contains("skeleton")) {
     file.skeleton = io::ReadFile(folder + "/" + written.at("skeleton").get<std::string>());
   }
+  file.displaced = written.value("displaced", std::vector<int>());
   file.rest_frames = std::max(0, written.value("rest_frames", 0));
   std::vector<report::NodePlayed> joints;
   for (const auto& [node, bone] : written.at("joints").items()) {
