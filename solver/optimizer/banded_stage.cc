@@ -105,7 +105,7 @@ class BandedStage {
       Accept();
       if (!Report(cost, &iteration)) return SolveStatus::kInterrupted;
       const bool free = step_length_.mean() > kFreeShare && damping < kFreeDamping;
-      if (end.Add(cost, iteration.step_m, free)) return SolveStatus::kConverged;
+      if (end.Add(cost, free)) return SolveStatus::kConverged;
     }
     return SolveStatus::kIterationLimit;
   }

@@ -251,8 +251,8 @@ class StageCallback : public ceres::IterationCallback {
                    context_.problem->scene().num_frames() == 1);
     }
     const bool free = summary.trust_region_radius > kFreeRadius;
-    return end_->Add(summary.cost, iteration.step_m, free) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                           : ceres::SOLVER_CONTINUE;
+    return end_->Add(summary.cost, free) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                         : ceres::SOLVER_CONTINUE;
   }
 
   SolveStatus status = SolveStatus::kConverged;
