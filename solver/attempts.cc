@@ -20,11 +20,15 @@ struct Attempt {
   Metrics metrics;
   int missed = 0;                  // requirements
   std::vector<std::string> worse;  // than the baseline in these
+  double worse_by = 0;             // sum of what that is over what is allowed, as shares of it
+  std::string cure;                // what was done about pass-throughs
 };
 
 bool Better(const Attempt& a, const Attempt& b) {
   const auto rank = [](const Attempt& x) {
-    return std::tuple(x.worse.size(), x.metrics.pass_throughs.size(), x.missed, x.solve.cost);
+    const bool unfinished = x.solve.status != SolveStatus::kConverged;
+    return std::tuple(x.worse.size(), x.metrics.pass_throughs.size(), x.worse_by, unfinished,
+                      x.missed, x.solve.cost);
   };
   return rank(a) < rank(b);
 }
@@ -71,6 +75,7 @@ class Attempts {
       }
     }
     if (!best_.worse.empty()) TryOthers();
+    if (!best_.cure.empty()) result_->warnings.push_back(best_.cure);
     best_.solve.seconds = seconds_;  // all were needed
     if (interrupted_) best_.solve.status = SolveStatus::kInterrupted;
     result_->solve = std::move(best_.solve);
@@ -131,16 +136,15 @@ class Attempts {
 
   // The same without pass-throughs, as far as that can be.
   Attempt Cured(Attempt attempt) {
-    if (attempt.metrics.pass_throughs.empty() || !MayGoOn()) return attempt;
+    const bool deep = DeepestOf(attempt.metrics) > problem_.settings().requirements.penetration_m;
+    if ((attempt.metrics.pass_throughs.empty() && !deep) || !MayGoOn()) return attempt;
     Unknowns x = attempt.solve.unknowns;
     const int frames = CurePassThroughs(problem_, &x);
     if (frames == 0) return attempt;
     Attempt cured = Solve(x, {1});
     if (!Better(cured, attempt)) return attempt;
-    result_->warnings.push_back(
-        "limbs went through limbs after frame " +
-        std::to_string(attempt.metrics.pass_throughs[0].frame) + ": " + std::to_string(frames) +
-        " frames were solved again from the side of the template, and the clip once more");
+    cured.cure = "limbs went through limbs from frame to frame: " + std::to_string(frames) +
+                 " frames were solved again from the side of the template, and the clip once more";
     return cured;
   }
 
@@ -156,27 +160,30 @@ class Attempts {
         CheckRequirements(subject_, attempt.metrics, problem_.settings().requirements);
     attempt.missed = static_cast<int>(std::count_if(
         checks.begin(), checks.end(), [](const RequirementCheck& c) { return !c.met; }));
-    if (attempt.missed > 0) attempt.worse = WorseIn(attempt.metrics);
+    if (attempt.missed > 0) CompareWithBaseline(&attempt);
     return attempt;
   }
 
-  // Names of what a motion that misses a requirement does worse than the baseline.
-  std::vector<std::string> WorseIn(const Metrics& m) {
+  void CompareWithBaseline(Attempt* attempt) {
+    const Metrics& m = attempt->metrics;
     if (!baseline_) baseline_ = Measured(result_->simulation.motion);
     const Requirements& required = problem_.settings().requirements;
-    std::vector<std::string> worse;
+    const auto worse = [&](const std::string& in, double by) {
+      attempt->worse.push_back(in);
+      attempt->worse_by += by;
+    };
     for (size_t k = 0; k < m.tangles.size(); ++k) {
       const double enough = std::min(required.gli, SmallestOf(baseline_->tangles[k]));
-      if (SmallestOf(m.tangles[k]) < enough) worse.push_back("tag " + std::to_string(k + 1));
+      const double missing = enough - SmallestOf(m.tangles[k]);
+      if (missing > 0) worse("tag " + std::to_string(k + 1), missing / kTangleThreshold);
     }
     if (static_cast<int>(m.pass_throughs.size()) >
         std::max(required.pass_throughs, static_cast<int>(baseline_->pass_throughs.size()))) {
-      worse.push_back("pass-throughs");
+      worse("pass-throughs", 0);
     }
-    if (DeepestOf(m) > std::max(required.penetration_m, DeepestOf(*baseline_))) {
-      worse.push_back("penetration");
-    }
-    return worse;
+    const double allowed = std::max(required.penetration_m, DeepestOf(*baseline_));
+    const double deeper = DeepestOf(m) - allowed;
+    if (deeper > 0) worse("penetration", deeper / std::max(allowed, 1e-3));
   }
 
   Metrics Measured(const std::array<Clip, 2>& clips) const {

@@ -34,6 +34,22 @@ double DisplacementOf(const std::vector<Vec3>& before, const std::vector<Vec3>& 
   return std::sqrt(largest2);
 }
 
+// Depths of the capsules of one body in those of the other, 0 where they are apart. [nodes x nodes]
+MatX Depths(const std::array<Body, 2>& body, const NodePositions& node) {
+  const std::vector<SegmentSpan> a = SpansOf(body[0], node[0]), b = SpansOf(body[1], node[1]);
+  MatX depths = MatX::Zero(body[0].num_nodes(), body[1].num_nodes());
+  for (int i = 1; i < body[0].num_nodes(); ++i) {
+    for (int j = 1; j < body[1].num_nodes(); ++j) {
+      const double radii = body[0].nodes[i].radius + body[1].nodes[j].radius;
+      const double limit = a[i].half + b[j].half + radii;
+      if ((a[i].middle - b[j].middle).squaredNorm() > limit * limit) continue;
+      const double apart = ClosestPointsOfSegments(a[i].a, a[i].b, b[j].a, b[j].b).distance;
+      depths(i, j) = std::max(0.0, radii - apart);
+    }
+  }
+  return depths;
+}
+
 }  // namespace
 
 GliJump LargestGliJump(const std::array<Body, 2>& body, const NodePositions& before,
@@ -70,32 +86,60 @@ GliJump LargestGliJump(const std::array<Body, 2>& body, const NodePositions& bef
   return largest;
 }
 
-GliJump LargestGliJumpOnTheWay(const std::array<Body, 2>& body, const NodePositions& before,
-                               const NodePositions& after) {
-  return LargestGliJump(body, before, after,
-                        DisplacementOf(before[0], after[0]) + DisplacementOf(before[1], after[1]));
+bool MayMeetOnTheWay(const std::array<Body, 2>& body, const NodePositions& before,
+                     const NodePositions& after) {
+  // The way is curved: nodes move a little further than from place to place.
+  constexpr double kCurved = 1.2;
+  for (int i = 1; i < body[0].num_nodes(); ++i) {
+    const int pi = body[0].nodes[i].parent;
+    const Vec3 &a = before[0][pi], &b = before[0][i];
+    const Vec3 da = after[0][pi] - a, db = after[0][i] - b;
+    for (int j = 1; j < body[1].num_nodes(); ++j) {
+      const int pj = body[1].nodes[j].parent;
+      const Vec3 &c = before[1][pj], &d = before[1][j];
+      const Vec3 dc = after[1][pj] - c, dd = after[1][j] - d;
+      // What two points of the segments move against each other is a mean of these four.
+      const double move2 = std::max(std::max((da - dc).squaredNorm(), (da - dd).squaredNorm()),
+                                    std::max((db - dc).squaredNorm(), (db - dd).squaredNorm()));
+      // In and out again.
+      if (move2 < 4 * kLargestDip * kLargestDip) continue;
+      const double radii = body[0].nodes[i].radius + body[1].nodes[j].radius;
+      const double reach = kCurved * std::sqrt(move2) + radii;
+      const double bound = reach + 0.5 * ((b - a).norm() + (d - c).norm());
+      if ((0.5 * (a + b - c - d)).squaredNorm() > bound * bound) continue;
+      if (ClosestPointsOfSegments(a, b, c, d).distance < reach) return true;
+    }
+  }
+  return false;
 }
 
-GliJump LargestGliJumpBetween(const std::array<Body, 2>& body, const std::array<Pose, 2>& from,
-                              const std::array<Pose, 2>& to) {
+bool Way::IsClear() const { return jump.size <= kPassThroughGli && dip_m <= kLargestDip; }
+
+Way WayBetween(const std::array<Body, 2>& body, const std::array<Pose, 2>& from,
+               const std::array<Pose, 2>& to) {
   constexpr int kInstants = 4;
-  const auto nodes_at = [&](int k) {
-    NodePositions nodes;
+  Way way;
+  MatX ends = MatX::Zero(body[0].num_nodes(), body[1].num_nodes());
+  MatX inside = ends;
+  NodePositions last;
+  for (int k = 0; k <= kInstants; ++k) {
+    NodePositions now;
     for (int f = 0; f < 2; ++f) {
-      nodes[f] =
+      now[f] =
           PoseBody(body[f], Interpolate(from[f], to[f], static_cast<double>(k) / kInstants)).node;
     }
-    return nodes;
-  };
-  GliJump largest;
-  NodePositions before = nodes_at(0);
-  for (int k = 1; k <= kInstants; ++k) {
-    NodePositions after = nodes_at(k);
-    const GliJump jump = LargestGliJumpOnTheWay(body, before, after);
-    if (jump.size > largest.size) largest = jump;
-    before = std::move(after);
+    const bool end = k == 0 || k == kInstants;
+    MatX& deepest = end ? ends : inside;
+    deepest = deepest.cwiseMax(Depths(body, now));
+    if (k > 0) {
+      const double reach = DisplacementOf(last[0], now[0]) + DisplacementOf(last[1], now[1]);
+      const GliJump jump = LargestGliJump(body, last, now, reach);
+      if (jump.size > way.jump.size) way.jump = jump;
+    }
+    last = std::move(now);
   }
-  return largest;
+  way.dip_m = std::max(0.0, (inside - ends).maxCoeff());
+  return way;
 }
 
 double LargestDisplacement(const NodePositions& before, const NodePositions& after) {

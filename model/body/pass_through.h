@@ -19,6 +19,10 @@ using NodePositions = std::array<std::vector<Vec3>, 2>;
 // one where a limb goes through a limb, and by far less where limbs move past each other.
 inline constexpr double kPassThroughGli = 0.5;
 
+// A deeper dip between two frames (Way): the limbs are on different sides of each other in these
+// frames, and came there past an open end (m).
+inline constexpr double kLargestDip = 0.015;
+
 // How far apart two segments may be and still meet on the way from one posture to the next (m).
 // Within one step of the solve: two nodes that each move by solve.step_limit_m meet from 0.2 m.
 inline constexpr double kGuardReach = 0.25;
@@ -39,16 +43,21 @@ struct GliJump {
 GliJump LargestGliJump(const std::array<Body, 2>& body, const NodePositions& before,
                        const NodePositions& after, double reach);
 
-// The same from one frame of a motion to the next, over all segments that can meet on the way: they
-// are no further apart than the fastest nodes of both figures move.
-GliJump LargestGliJumpOnTheWay(const std::array<Body, 2>& body, const NodePositions& before,
-                               const NodePositions& after);
+// Whether segments of the two bodies may touch on the way from one frame of a motion to the next:
+// they are no further apart than they move against each other, and no less quick than a dip of
+// kLargestDip takes. Cheap, where nothing is near or nothing is quick.
+bool MayMeetOnTheWay(const std::array<Body, 2>& body, const NodePositions& before,
+                     const NodePositions& after);
 
-// Largest change of GLI between neighbouring instants, four to a frame, on the way from one frame
-// of a motion to the next (Interpolate). A limb goes through a limb where it is over
-// kPassThroughGli.
-GliJump LargestGliJumpBetween(const std::array<Body, 2>& body, const std::array<Pose, 2>& from,
-                              const std::array<Pose, 2>& to);
+// What happens on the way from one frame of a motion to the next (Interpolate), at four instants.
+struct Way {
+  GliJump jump;      // largest change of GLI from one instant to the next
+  double dip_m = 0;  // by how much two capsules get deeper than they are in either frame, or than
+                     // touching
+  bool IsClear() const;
+};
+Way WayBetween(const std::array<Body, 2>& body, const std::array<Pose, 2>& from,
+               const std::array<Pose, 2>& to);
 
 // How far the fastest node moved (m).
 double LargestDisplacement(const NodePositions& before, const NodePositions& after);

@@ -71,7 +71,7 @@ class BandedStage {
     Accept();
     double damping = settings.initial_damping;
     result_->stalled = false;
-    StageEnd end(context_.tolerance, cost);
+    StageEnd end(context_.tolerance, cost, scene_.num_frames() == 1);
     int rejected = 0;  // linear solves in a row without a sound step
     for (int iterations = 0; iterations < context_.iterations_left;) {
       if (context_.seconds_left > 0 && SecondsNow() - context_.started > context_.seconds_left) {
@@ -105,7 +105,7 @@ class BandedStage {
       Accept();
       if (!Report(cost, &iteration)) return SolveStatus::kInterrupted;
       const bool free = step_length_.mean() > kFreeShare && damping < kFreeDamping;
-      if (end.Add(cost, iteration.step_m, free)) return SolveStatus::kConverged;
+      if (end.Add(cost, free)) return SolveStatus::kConverged;
     }
     return SolveStatus::kIterationLimit;
   }
@@ -194,7 +194,7 @@ class BandedStage {
       displacement_[t] = LargestDisplacement(accepted_[t], trial_[t]);
       tunnelled_[t] = LargestGliJump(scene_.body, accepted_[t], trial_[t], kGuardReach).size > jump;
     });
-    trial_through_ = GoesThrough(scene_, x, trial_, threads_);
+    trial_through_ = FramesThatGoThrough(scene_, x.edit, trial_, context_.refuse_dips, threads_);
     return std::accumulate(trial_cost_.begin(), trial_cost_.end(), 0.0);
   }
 

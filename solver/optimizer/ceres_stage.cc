@@ -62,7 +62,8 @@ class FrameCache : public ceres::EvaluationCallback {
       if (guarding_) moved = std::max(moved, LargestDisplacement(accepted_[t], now));
       accepted_[t] = now;
     }
-    accepted_through_ = GoesThrough(scene_, unknowns_, accepted_, threads_);
+    accepted_through_ =
+        FramesThatGoThrough(scene_, unknowns_.edit, accepted_, context_.refuse_dips, threads_);
     last_step_m_ = moved;
     guarding_ = true;
     sound_ = true;
@@ -80,7 +81,8 @@ class FrameCache : public ceres::EvaluationCallback {
                (moved > kStill && LargestGliJump(scene_.body, accepted_[t], now, kGuardReach).size >
                                       settings.gli_jump);
     });
-    const std::vector<char> through = GoesThrough(scene_, unknowns_, nodes, threads_);
+    const std::vector<char> through =
+        FramesThatGoThrough(scene_, unknowns_.edit, nodes, context_.refuse_dips, threads_);
     for (size_t t = 0; t < through.size(); ++t) bad[t] |= through[t] && !accepted_through_[t];
     return std::count(bad.begin(), bad.end(), 0) == static_cast<long>(bad.size());
   }
@@ -244,10 +246,13 @@ class StageCallback : public ceres::IterationCallback {
       status = SolveStatus::kInterrupted;
       return ceres::SOLVER_ABORT;
     }
-    if (!end_) end_.emplace(context_.tolerance, summary.cost + summary.cost_change);
+    if (!end_) {
+      end_.emplace(context_.tolerance, summary.cost + summary.cost_change,
+                   context_.problem->scene().num_frames() == 1);
+    }
     const bool free = summary.trust_region_radius > kFreeRadius;
-    return end_->Add(summary.cost, iteration.step_m, free) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                           : ceres::SOLVER_CONTINUE;
+    return end_->Add(summary.cost, free) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                         : ceres::SOLVER_CONTINUE;
   }
 
   SolveStatus status = SolveStatus::kConverged;

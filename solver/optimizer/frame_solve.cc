@@ -5,6 +5,7 @@
 
 #include "solver/optimizer/kernels.h"
 #include "solver/optimizer/normal_equations.h"
+#include "solver/problem/time_guard.h"
 
 namespace retarget::solver {
 namespace {
@@ -86,10 +87,15 @@ class FrameSolver {
   }
 
   bool IsSound(const NodePositions& now) const {
-    const std::array<Body, 2>& body = problem_.scene().body;
-    return LargestGliJump(body, at_.node, now, options_.guard_reach).size <= options_.gli_jump &&
-           (!task_.also_from ||
-            LargestGliJumpOnTheWay(body, *task_.also_from, now).size <= options_.gli_jump);
+    const Scene& scene = problem_.scene();
+    const auto sound_from = [&](const NodePositions& from) {
+      return LargestGliJump(scene.body, from, now, options_.guard_reach).size <= options_.gli_jump;
+    };
+    if (!sound_from(at_.node)) return false;
+    if (!task_.also_from) return true;
+    return sound_from(*task_.also_from) &&
+           !(MayMeetOnTheWay(scene.body, *task_.also_from, now) &&
+             !WayBetween(scene, x_->edit, task_.also_from_frame, task_.t).IsClear());
   }
 
   NodePositions NodesNow() {

@@ -30,8 +30,10 @@ struct FrameTask {
   // Where not 0, the edit x stays near another one: cost 1/2 |follow_weight (x - follow)|^2.
   double follow_weight = 0;
   VecX follow = {};
-  // Places from which no limb may come through a limb either; null: none.
+  // Places from which no limb may come through a limb either, and the frame that has them; null:
+  // none.
   const NodePositions* also_from = nullptr;
+  int also_from_frame = -1;
   std::vector<FreeAnchor> free_anchors = {};
 };
 

@@ -55,6 +55,7 @@ void SolveStages(const Problem& problem, const std::vector<double>& stages, doub
     const bool last = s + 1 == stages.size();
     const StageContext context{&problem,
                                stages[s],
+                               stages.size() == 1,
                                last ? settings.polish_decrease : settings.relative_decrease,
                                settings.max_iterations - result->iterations,
                                settings.max_seconds,

@@ -8,6 +8,7 @@ namespace retarget::solver {
 struct StageContext {
   const Problem* problem;
   double contact_factor;  // of the weights of staged terms
+  bool refuse_dips;       // from frame to frame, where contacts are never weak
   double tolerance;       // relative decrease, twice in a row ends the stage
   int iterations_left;
   double seconds_left;  // 0: no limit

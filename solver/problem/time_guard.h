@@ -1,6 +1,7 @@
-// Whether a limb goes through a limb from one frame of a motion to the next. Steps of the solve
-// keep every frame on its side of what it winds about; where the open end of a limb slips past in
-// one frame and not in the next, no step did anything wrong, and yet the motion goes through.
+// Whether a limb goes through a limb, or dips into one, from one frame of a motion to the next.
+// Steps of the solve keep every frame on its side of what it winds about; where the open end of a
+// limb slips past in one frame and not in the next, no step did anything wrong, and yet the motion
+// goes through.
 #pragma once
 
 #include <vector>
@@ -10,11 +11,14 @@
 
 namespace retarget::solver {
 
-// Between frames t and t + 1 of the edited motion (LargestGliJumpBetween).
-bool GoesThroughAfter(const Scene& scene, const Unknowns& unknowns, int t);
+// From one frame of the edited motion to another.
+Way WayBetween(const Scene& scene, const MatX& edit, int from, int to);
 
-// The same of every frame but the last, from the node places of all: cheap where nothing is near.
-std::vector<char> GoesThrough(const Scene& scene, const Unknowns& unknowns,
-                              const std::vector<NodePositions>& nodes, int threads);
+// Whether a limb goes through a limb from every frame to the next, by the node places of all: cheap
+// where nothing is near. Dips count too where `dips` says so; while contacts are weak they come and
+// go.
+std::vector<char> FramesThatGoThrough(const Scene& scene, const MatX& edit,
+                                      const std::vector<NodePositions>& nodes, bool dips,
+                                      int threads);
 
 }  // namespace retarget::solver

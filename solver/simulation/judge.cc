@@ -65,7 +65,7 @@ void ClassifyPassThroughs(const Scene& scene, SimulationResult* result) {
     return {result->motion[0].frames[t], result->motion[1].frames[t]};
   };
   for (int t = 1; t < scene.num_frames(); ++t) {
-    const GliJump jump = LargestGliJumpBetween(scene.body, poses_at(t - 1), poses_at(t));
+    const GliJump jump = WayBetween(scene.body, poses_at(t - 1), poses_at(t)).jump;
     if (jump.size > kPassThroughGli) {
       Stop(result, SimulationStatus::kPassedThrough,
            scene.body[0].nodes[jump.node_a].name + " of a went through " +

@@ -55,13 +55,17 @@ class Pass {
   void SolveNext(int t, int previous) {
     x_.edit.col(t) = x_.edit.col(previous);
     // Where the capture itself goes through a limb, start from the pose of the frame before.
-    if (LargestGliJumpOnTheWay(scene_.body, last_, NodesAt(t)).size > options_.gli_jump) {
+    const NodePositions now = NodesAt(t);
+    if (LargestGliJump(scene_.body, last_, now, options_.guard_reach).size > options_.gli_jump ||
+        (MayMeetOnTheWay(scene_.body, last_, now) &&
+         !WayBetween(scene_, x_.edit, previous, t).IsClear())) {
       KeepPose(previous, t);
     }
     const FrameTask task = {.t = t,
                             .follow_weight = kFollowWeight,
                             .follow = x_.edit.col(t),
                             .also_from = &last_,
+                            .also_from_frame = previous,
                             .free_anchors = StartedAnchors(t, previous)};
     last_ = SolveFrame(problem_, task, options_, &x_).node;
   }
@@ -142,7 +146,7 @@ int CurePassThroughs(const Problem& problem, Unknowns* x) {
   for (const int direction : {1, -1}) {
     const auto inside = [&](int t) { return t >= 0 && t < n; };
     const auto goes_through = [&](int t) {
-      return GoesThroughAfter(scene, pass.unknowns(), std::min(t, t + direction));
+      return !WayBetween(scene, pass.unknowns().edit, t, t + direction).IsClear();
     };
     for (int t = scene.template_frame; inside(t + direction); t += direction) {
       if (!goes_through(t)) continue;

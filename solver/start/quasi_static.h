@@ -15,10 +15,10 @@ namespace retarget::solver {
 // jump of a segment pair from iteration to iteration and from frame to frame.
 Unknowns QuasiStaticPass(const Problem& problem, const Unknowns& start);
 
-// Where a limb goes through a limb from one frame to the next, the frames beyond, seen from the
-// template's, are solved again one by one from the side that has kept it where it was, until one
-// leads into the motion as it is. Returns how many frames were solved; the motion is to be made
-// even after that.
+// Where a limb goes through a limb, or dips into one, from one frame to the next, the frames
+// beyond, seen from the template's, are solved again one by one from the side that has kept it
+// where it was, until one leads into the motion as it is. Returns how many frames were solved; the
+// motion is to be made even after that.
 int CurePassThroughs(const Problem& problem, Unknowns* x);
 
 }  // namespace retarget::solver
