@@ -72,10 +72,10 @@ struct Requirements {
   double penetration_m = 0.02;         // largest, between the bodies
   double penetration_1cm_percent = 1;  // share of frames over 1 cm
   double foot_drift_m = 0.01;
-  double foot_travel_m = 0.02;           // near the floor in one swing, or ...
-  double foot_travel_ratio = 1.5;        // ... this many times the source's, whichever is more
-  double foot_acceleration = 10;         // m/s^2 where a contact begins or ends, or ...
-  double foot_acceleration_ratio = 1.5;  // ... this many times the source's
+  double foot_travel_m = 0.06;         // near the floor in one swing, or ...
+  double foot_travel_ratio = 2;        // ... this many times the source's, whichever is more
+  double foot_acceleration = 30;       // m/s^2 where a contact begins or ends, or ...
+  double foot_acceleration_ratio = 2;  // ... this many times the source's
   double floor_m = 0.01;
   double hold_m = 0.02;
   double segment_length_percent = 0.5;  // largest change of a segment as it is written

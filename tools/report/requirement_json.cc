@@ -68,8 +68,12 @@ Json ChecksJson(const std::vector<solver::RequirementCheck>& checks,
                 const std::array<Body, 2>& body) {
   Json out = Json::array();
   for (const solver::RequirementCheck& c : checks) {
-    Json check = {{"name", NameOf(c)},           {"value", c.value}, {"limit", c.limit},
-                  {"unit", UnitOf(c.kind)},      {"met", c.met},     {"judged", c.judged()},
+    Json check = {{"name", NameOf(c)},
+                  {"value", c.judged() ? Json(c.value) : Json(nullptr)},
+                  {"limit", c.limit},
+                  {"unit", UnitOf(c.kind)},
+                  {"met", c.met},
+                  {"judged", c.judged()},
                   {"where", WorstPlace(c, body)}};
     AddPlace(c, &check);
     check["bound"] = c.bound ? Json(*c.bound) : Json(nullptr);

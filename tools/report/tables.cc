@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/report/comparison_tables.h"
 #include "tools/report/html.h"
@@ -28,7 +29,9 @@ std::string RequirementsHtml(const Json& report) {
     const std::string shown = r.unit == "m" ? " cm" : r.unit.rfind('%', 0) == 0 ? " %" : "";
     const int digits = r.unit.empty() ? 0 : 2;
     table.Row({{EscapeHtml(r.name)},
-               r.met ? Cell{"✓ met", "good"} : Cell{"✕ missed", "bad"},
+               std::isnan(r.value) ? Cell{"nothing to judge"}
+               : r.met             ? Cell{"✓ met", "good"}
+                                   : Cell{"✕ missed", "bad"},
                {Decimal(scale * r.value, digits) + shown, "number"},
                {Decimal(scale * r.limit, digits) + shown, "number unit"},
                {WithFrame(Humanize(r.where), r.frame)}},

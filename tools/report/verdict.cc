@@ -70,19 +70,33 @@ int64_t FramesLost(const Json& report, const std::string& motion) {
 
 bool HasTags(const Json& report) { return !At(report, "/tangles").empty(); }
 
+// Some tag falls to its limit, in a frame or between two.
+bool TagMissed(const Json& report) {
+  const std::vector<ReadRequirement> requirements = RequirementsOf(report);
+  return std::any_of(requirements.begin(), requirements.end(), [](const ReadRequirement& r) {
+    return r.Is(solver::RequirementKind::kTangle) && !r.met;
+  });
+}
+
 std::string Outcome(const Json& report, size_t missed, size_t all) {
   const int frames = report.value("frames", 0);
   const int64_t lost = HasTags(report) ? FramesLost(report, "result") : 0;
+  const bool loose = TagMissed(report);
   const std::string hold =
       !HasTags(report) ? ""
       : lost > 0       ? fmt::format("The tangles are lost in {} of {} frames", lost, frames)
+      : loose          ? "The tangles come loose between frames"
                        : fmt::format("The tangles are kept in all {} frames", frames);
+  if (TextAt(report, "/solve/status") == "interrupted") {
+    return fmt::format("The solve was interrupted: {} of {} requirements {} missed so far.", missed,
+                       all, missed == 1 ? "is" : "are");
+  }
   if (missed == 0)
     return hold.empty() ? "Every requirement is met." : hold + " and every requirement is met.";
   const std::string rest =
       fmt::format("{} of {} requirements {} missed.", missed, all, missed == 1 ? "is" : "are");
   if (hold.empty()) return rest;
-  return fmt::format("{}{} {}", hold, lost > 0 ? ";" : ", but", rest);
+  return fmt::format("{}{} {}", hold, lost > 0 || loose ? ";" : ", but", rest);
 }
 
 // What is missed, and by how much.

@@ -31,6 +31,8 @@ class MetricsTableTest : public testing::Test {
     baseline_.penetration_m = 0.01;
     baseline_.penetration_between_m = 0.021;
     result_.figure[1].foot_drift_m = 0.0123;
+    result_.figure[1].foot_drift_frame = 0;
+    baseline_.figure[1].foot_drift_m = 0;  // of the source nothing is measured
   }
 
   // The words of the line that begins with `name`.
@@ -59,16 +61,17 @@ TEST_F(MetricsTableTest, SourceBaselineResultAndWhatIsMissed) {
             (Words{"-0.30*", "0.40*", "0.70", ">", "0.50", "turns"}));
   EXPECT_EQ(Line(&baseline_, "deepest penetration"),
             (Words{"0.00", "2.10*", "0.00", "<=", "2.00", "cm"}));
-  EXPECT_EQ(Line(&baseline_, "foot drift b"), (Words{"0.00", "0.00", "1.23*", "<=", "1.00", "cm"}));
-  EXPECT_EQ(Line(&baseline_, "joint edit a"), (Words{"0.00", "0.00", "0.00", "deg"}));
-  EXPECT_EQ(Line(&baseline_, "hold error"), (Words{"-", "-", "-", "cm"}));  // the scene has none
+  EXPECT_EQ(Line(&baseline_, "foot drift b"), (Words{"none", "0.00", "1.23*", "<=", "1.00", "cm"}));
+  EXPECT_EQ(Line(&baseline_, "joint edit a"), (Words{"none", "none", "none", "deg"}));
+  EXPECT_EQ(Line(&baseline_, "hold error"),
+            (Words{"none", "none", "none", "cm"}));  // the scene has none
   EXPECT_EQ(Line(&baseline_, "MISSED foot drift b:"),
             (Words{"0.0123", "m,", "required", "0.01", "at", "frame", "0"}));
 }
 
 TEST_F(MetricsTableTest, WithoutBaselineTwoColumns) {
   EXPECT_EQ(Line(nullptr, " "), (Words{"source", "result", "required"}));
-  EXPECT_EQ(Line(nullptr, "foot drift b"), (Words{"0.00", "1.23*", "<=", "1.00", "cm"}));
+  EXPECT_EQ(Line(nullptr, "foot drift b"), (Words{"none", "1.23*", "<=", "1.00", "cm"}));
 }
 
 TEST_F(MetricsTableTest, EveryRequirementHasItsRow) {
