@@ -16,6 +16,7 @@ struct ClipOptions {
   std::string up;              // "y", "z", empty: as the file says, or guess
   std::string map;             // path of a joint map, empty: guess
   bool any_animation = false;  // of several, none of them selected, the first
+  bool repair_jumps = false;   // interpolate frames that stand apart from the motion
   bool keep_in_place = false;  // a clip that strides in place stays there
   int skip_frames = 0;         // dropped from the beginning
   // "follow": targets of inverse kinematics and other loose bones go with the bones that they are

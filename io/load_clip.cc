@@ -9,6 +9,7 @@
 #include "io/map_file.h"
 #include "io/text/quoted.h"
 #include "model/body/travel.h"
+#include "model/rig/jumps.h"
 #include "model/rig/tree.h"
 
 namespace retarget::io {
@@ -219,6 +220,49 @@ std::string MapOfClip(const ClipOptions& options) {
   }
 }
 
+namespace {
+
+// Notes frames that cannot be true, or repairs them as asked for.
+void TreatJumps(LoadedClip* clip) {
+  const ClipOptions& options = clip->options;
+  RigMotion& motion = clip->file.motion;
+  const std::vector<JumpRun> runs = FindJumps(motion, clip->facts.map);
+  const auto note = [&](const std::string& text) { clip->facts.notes.push_back(text); };
+  constexpr size_t kShown = 4;
+  for (size_t n = 0; n < std::min(runs.size(), kShown); ++n) {
+    const JumpRun& run = runs[n];
+    const std::string joint = "'" + Printable(motion.rig.joints[run.joint].name) + "'";
+    if (run.is_cut()) {
+      note(
+          fmt::format("the motion jumps from frame {} to {}: {} turns at {:.0f} rad/s, faster than "
+                      "a person can; the capture flips, or two motions were cut "
+                      "together there",
+                      run.last, run.first, joint, run.speed));
+      continue;
+    }
+    const std::string frames = run.first == run.last
+                                   ? fmt::format("frame {} stands", run.first)
+                                   : fmt::format("frames {} to {} stand", run.first, run.last);
+    const std::string what = fmt::format(
+        "{} apart from the motion ({} turns at {:.0f} rad/s, faster "
+        "than a person can)",
+        frames, joint, run.speed);
+    if (options.repair_jumps) {
+      note(what + ": interpolated, as asked for");
+    } else {
+      note(fmt::format("{}: {} interpolates{}", what, options.Named(options.words.repair),
+                       run.first > 0 ? ""
+                                     : fmt::format(", {} {} leaves out",
+                                                   options.Named(options.words.skip_frames),
+                                                   options.skip_frames + run.last + 1)));
+    }
+  }
+  if (runs.size() > kShown) note(fmt::format("and {} more such jumps", runs.size() - kShown));
+  if (options.repair_jumps) RepairJumps(runs, &motion);
+}
+
+}  // namespace
+
 LoadedClip RecogniseClip(const ClipOptions& options) {
   LoadedClip clip = ReadClip(options);
   RigMotion& motion = clip.file.motion;
@@ -230,6 +274,7 @@ LoadedClip RecogniseClip(const ClipOptions& options) {
                                  options.path, motion.num_frames()));
   }
   motion.frames.erase(motion.frames.begin(), motion.frames.begin() + options.skip_frames);
+  TreatJumps(&clip);
   return clip;
 }
 

@@ -7,6 +7,7 @@
 //   (CurePassThroughs)
 //     and the clip is made even;
 //   - from the same start with full contacts, where a requirement is missed;
+//   - from the same start with free feet guided more softly, where only those miss;
 //   - from the other start, and from the simulated motion as it is, where the result is worse than
 //     that motion, the baseline: more pass-throughs, a tag lost that it keeps, or deeper.
 // The best is kept, and what was done is said in the warnings.

@@ -12,6 +12,7 @@ struct OptionWords {
   std::string up = "ClipOptions::up";
   std::string skip_frames = "ClipOptions::skip_frames";
   std::string start = "ClipOptions::start";
+  std::string repair = "ClipOptions::repair_jumps";
   std::string travel = "ClipOptions::travel";
   std::string ik_targets = "ClipOptions::ik_targets";
   std::string character = "ClipOptions::character";

@@ -40,6 +40,9 @@ void AddClipOptions(CLI::App* app, io::ClipOptions* clip, const std::string& fig
       ->capture_default_str()
       ->check(CLI::IsMember({"follow", "keep"}))
       ->group(group);
+  app->add_flag("--repair" + suffix, clip->repair_jumps,
+                "interpolate frames that stand apart from the motion (see `retarget map`)")
+      ->group(group);
   if (!solve) return;
   app->add_option("--character" + suffix, clip->character,
                   "put the motion on this character (glTF, VRM, BVH) and solve on its body")

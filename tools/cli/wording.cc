@@ -11,6 +11,7 @@ io::OptionWords ProgramWords() {
           .up = "--up",
           .skip_frames = "--skip-frames",
           .start = "--start",
+          .repair = "--repair",
           .travel = "--travel",
           .ik_targets = "--ik-targets",
           .character = "--character",
