@@ -5,4 +5,4 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 options=(--dry-run -Werror)
 [[ ${1:-} == --fix ]] && options=(-i)
-git ls-files '*.cc' '*.h' | xargs clang-format "${options[@]}"
+git ls-files -co --exclude-standard '*.cc' '*.h' | xargs clang-format "${options[@]}"

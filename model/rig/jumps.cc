@@ -6,8 +6,8 @@
 namespace retarget {
 namespace {
 
-// Faster than joints turn in anything but a throw (rad/s), and than what is usual about that time by
-// so many times: a fast motion is fast for longer.
+// Faster than joints turn in anything but a throw (rad/s), and than what is usual about that time
+// by so many times: a fast motion is fast for longer.
 constexpr double kFast = 35, kTimes = 6;
 constexpr double kAround = 0.5;   // s either way that say what is usual
 constexpr double kLongest = 0.1;  // s that may stand apart together
@@ -57,8 +57,7 @@ std::vector<JumpRun> FindJumps(const RigMotion& motion, const JointMap& map) {
   };
   const int longest = frames_in(kLongest);
   const auto is_jump = [&](int t) {
-    return steps[t].speed > kFast &&
-           steps[t].speed > kTimes * Usual(steps, t, frames_in(kAround));
+    return steps[t].speed > kFast && steps[t].speed > kTimes * Usual(steps, t, frames_in(kAround));
   };
   std::vector<JumpRun> runs;
   for (int t = 0; t + 1 < frames; ++t) {
@@ -72,7 +71,8 @@ std::vector<JumpRun> FindJumps(const RigMotion& motion, const JointMap& map) {
     }
     const bool from_start = t < longest && frames > 3 * longest;
     const bool to_end = frames - 2 - last < longest && frames > 3 * longest;
-    const bool returns = last > t && FastestStep(motion, joints, t, last + 1).speed < kFast / kTimes;
+    const bool returns =
+        last > t && FastestStep(motion, joints, t, last + 1).speed < kFast / kTimes;
     if (returns) {
       runs.push_back({t + 1, last, fastest.joint, fastest.speed});
     } else if (from_start) {

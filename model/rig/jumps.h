@@ -1,5 +1,5 @@
-// Frames of a capture that cannot be true: a marker lost or swapped for a moment, a calibration pose
-// before the motion. A joint gets there faster than a person can move it.
+// Frames of a capture that cannot be true: a marker lost or swapped for a moment, a calibration
+// pose before the motion. A joint gets there faster than a person can move it.
 #pragma once
 
 #include <string>
