@@ -116,12 +116,7 @@ bool KeepsItsDistance(const std::vector<PosedRig>& poses, int knee, int foot) {
 class FollowerFinder {
  public:
   FollowerFinder(const RigMotion& motion, const JointMap& map, double size)
-      : motion_(motion),
-        rig_(motion.rig),
-        map_(map),
-        size_(size),
-        poses_(SamplePoses(motion)),
-        used_(UsedIn(map)) {}
+      : rig_(motion.rig), map_(map), size_(size), poses_(SamplePoses(motion)), used_(UsedIn(map)) {}
 
   std::vector<RigFollower> Find() const {
     std::vector<RigFollower> out;
@@ -237,7 +232,6 @@ class FollowerFinder {
     return spread;
   }
 
-  const RigMotion& motion_;
   const Rig& rig_;
   const JointMap& map_;
   double size_;  // stature, file units
