@@ -4,10 +4,8 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/gltf/container.h"
 #include "io/recognition/figures.h"
 #include "io/text/quoted.h"
 #include "io/text/read_file.h"
@@ -154,32 +152,6 @@ void ChooseFigure(const ClipPath& path, ClipFile* clip) {
   CutTo(joints, clip);
 }
 
-// A character or an animation of VRM keeps the ending by which its programs know it.
-std::string ExtensionOf(const GltfClip& clip, const std::string& usual) {
-  std::string own = fs::path(clip.name).extension().string();
-  std::ranges::transform(own, own.begin(), [](unsigned char c) { return std::tolower(c); });
-  return own == ".vrm" || own == ".vrma" ? own : usual;
-}
-
-// Files beside a .gltf that it names by a relative path: buffers and images.
-std::vector<std::string> ExternalFiles(const GltfClip& clip) {
-  std::vector<std::string> files;
-  const nlohmann::json document =
-      nlohmann::json::parse(SplitGltf(clip.bytes, clip.name).json, nullptr, false);
-  for (const char* kind : {"buffers", "images"}) {
-    if (!document.is_object() || !document.contains(kind)) continue;
-    for (const auto& item : document.at(kind)) {
-      if (!item.is_object() || !item.contains("uri") || !item.at("uri").is_string()) continue;
-      const std::string uri = item.at("uri");
-      if (uri.rfind("data:", 0) == 0 || uri.find("://") != std::string::npos) continue;
-      const fs::path path = fs::path(uri).lexically_normal();
-      if (path.is_absolute() || path.begin()->string() == "..") continue;
-      if (IsFile(clip.folder + "/" + path.string())) files.push_back(path.string());
-    }
-  }
-  return files;
-}
-
 ClipFile ParseFormat(const ClipPath& path, std::string bytes, const std::string& skeleton,
                      double fps) {
   const Format format = FormatOf(bytes);
@@ -218,20 +190,6 @@ ClipFile ParseFormat(const ClipPath& path, std::string bytes, const std::string&
 }
 
 }  // namespace
-
-ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double ratio) {
-  ScaledGltf scaled{original, motion};
-  if (ratio == 1) return scaled;
-  for (size_t j = 0; j < motion.rig.joints.size(); ++j) {
-    if (motion.rig.joints[j].parent < 0) {
-      scaled.clip.joints[j].scale *= ratio;
-      scaled.clip.joints[j].size *= ratio;
-      continue;
-    }
-    for (RigFrame& frame : scaled.motion.frames) frame.translation[j] /= ratio;
-  }
-  return scaled;
-}
 
 ClipPath ParseClipPath(const std::string& text) {
   ClipPath out;
@@ -286,95 +244,5 @@ ClipFile ParseClipFile(const ClipPath& path, std::string bytes, const std::strin
 }
 
 ClipFile ReadClipFile(const std::string& text) { return ReadClipFile(ParseClipPath(text)); }
-
-std::vector<std::string> NamesOfClipFile(const ClipFile& original, const std::string& stem) {
-  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
-    if (gltf->bytes.rfind("glTF", 0) == 0) return {stem + ExtensionOf(*gltf, ".glb")};
-    std::vector<std::string> names = {stem + ExtensionOf(*gltf, ".gltf")};
-    for (const std::string& file : ExternalFiles(*gltf)) names.push_back(file);
-    return names;
-  }
-  if (original.format == "Acclaim") return {stem + ".amc", stem + ".asf"};
-  return {stem + ".bvh"};
-}
-
-std::vector<NamedBytes> FormatClipFile(const ClipFile& original, const RigMotion& motion,
-                                       const std::string& stem, double stature_ratio) {
-  if (const auto* bvh = std::get_if<BvhFile>(&original.original)) {
-    return {{stem + ".bvh", FormatBvh(*bvh, motion, stature_ratio)}};
-  }
-  if (const auto* acclaim = std::get_if<AcclaimFile>(&original.original)) {
-    return {{stem + ".amc", FormatAmc(*acclaim, motion, stature_ratio)},
-            {stem + ".asf", FormatAsf(*acclaim, stature_ratio)}};
-  }
-  const auto& gltf = std::get<GltfClip>(original.original);
-  std::vector<NamedBytes> files;
-  for (const std::string& name : NamesOfClipFile(original, stem)) {
-    if (!files.empty()) {
-      files.push_back({name, ReadFile(gltf.folder + "/" + name)});
-      continue;
-    }
-    const ScaledGltf scaled = ScaleGltf(gltf, motion, stature_ratio);
-    files.push_back({name, FormatGltf(scaled.clip, scaled.motion, 0, kAnimationName)});
-  }
-  return files;
-}
-
-RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& files) {
-  const NamedBytes& first = files[0];
-  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
-    ClipPath path = WrittenPath(original, gltf->folder, "");
-    path.path = (gltf->folder.empty() ? "" : gltf->folder + "/") + first.name;
-    return ParseClipFile(path, first.bytes, "").motion;
-  }
-  if (original.format == "Acclaim") {
-    return ParseAcclaim(files[1].bytes, files[1].name, first.bytes, first.name,
-                        1 / original.motion.frame_time)
-        .motion;
-  }
-  return ParseBvh(first.bytes, first.name).motion;
-}
-
-PlayedFile PlayedFileOf(const ClipFile& original, const std::vector<NamedBytes>& files) {
-  PlayedFile played;
-  played.format = original.format;
-  played.name = files[0].name;
-  played.bytes = files[0].bytes;
-  if (const auto* bvh = std::get_if<BvhFile>(&original.original)) {
-    for (size_t j = 0; j < bvh->adds_offset.size(); ++j) {
-      if (bvh->adds_offset[j]) played.displaced.push_back(static_cast<int>(j));
-    }
-  }
-  if (original.format == "Acclaim") {
-    played.skeleton = files[1].bytes;
-    played.fps = 1 / original.motion.frame_time;
-  }
-  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
-    played.folder = gltf->folder;
-    played.animation = kAnimationName;
-  }
-  return played;
-}
-
-PlayedJoint JointInFile(const ClipFile& original, int joint) {
-  PlayedJoint played{original.motion.rig.joints[joint].name};
-  if (const auto* gltf = std::get_if<GltfClip>(&original.original)) {
-    played.node = gltf->joints[joint].node;
-  }
-  return played;
-}
-
-ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem) {
-  const std::vector<std::string> names = NamesOfClipFile(original, stem);
-  ClipPath path;
-  path.path = folder + "/" + names[0];
-  if (original.format == "Acclaim") path.skeleton = folder + "/" + names[1];
-  if (original.format == "glTF") {
-    path.select.animation = kAnimationName;
-    path.select.skin = original.select.skin;
-    path.select.figure = original.select.figure;
-  }
-  return path;
-}
 
 }  // namespace retarget::io

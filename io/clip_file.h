@@ -72,15 +72,9 @@ struct ScaledGltf {
 };
 ScaledGltf ScaleGltf(const GltfClip& original, const RigMotion& motion, double ratio);
 
-// The motion that such files hold, read as any reader would.
-RigMotion ReadBack(const ClipFile& original, const std::vector<NamedBytes>& files);
-
 // The same files to be played by io/playback/playback.h, and a joint of the clip's rig in them.
 PlayedFile PlayedFileOf(const ClipFile& original, const std::vector<NamedBytes>& files);
 PlayedJoint JointInFile(const ClipFile& original, int joint);
-
-// Where FormatClipFile puts the motion in `folder`, for reading it back.
-ClipPath WrittenPath(const ClipFile& original, const std::string& folder, const std::string& stem);
 
 // Name of the animation that is added to a glTF file.
 inline constexpr const char* kAnimationName = "retargeted";

@@ -27,22 +27,18 @@ struct Attempt {
   bool feet_alone = false;         // all of those are about free feet
   std::vector<std::string> worse;  // than the baseline in these
   double worse_by = 0;             // sum of what that is over what is allowed, as shares of it
-  std::string cure;                // what was done about pass-throughs
+  std::string remedy;              // what was done about what the first solve showed
 };
 
+// One that was interrupted has not been measured.
 bool Better(const Attempt& a, const Attempt& b) {
   const auto rank = [](const Attempt& x) {
+    const bool interrupted = x.solve.status == SolveStatus::kInterrupted;
     const bool unfinished = x.solve.status != SolveStatus::kConverged;
-    return std::tuple(x.worse.size(), x.metrics.pass_throughs.size(), x.worse_by, unfinished,
-                      x.missed, x.solve.cost);
+    return std::tuple(interrupted, x.worse.size(), x.metrics.pass_throughs.size(), x.worse_by,
+                      unfinished, x.missed, x.solve.cost);
   };
   return rank(a) < rank(b);
-}
-
-double DeepestOf(const Metrics& m) { return std::max(m.penetration_m, m.penetration_between_m); }
-
-double SmallestOf(const TangleMetrics& m) {
-  return std::min(m.min_signed_gli, m.min_signed_gli_between);
 }
 
 std::string Listed(const std::vector<std::string>& names) {
@@ -81,7 +77,7 @@ class Attempts {
       }
     }
     if (!best_.worse.empty()) TryOthers();
-    if (!best_.cure.empty()) result_->warnings.push_back(best_.cure);
+    if (!best_.remedy.empty()) result_->warnings.push_back(best_.remedy);
     best_.solve.seconds = seconds_;  // all were needed
     if (interrupted_) best_.solve.status = SolveStatus::kInterrupted;
     result_->solve = std::move(best_.solve);
@@ -137,7 +133,8 @@ class Attempts {
     }
     if (best.feet_alone && MayGoOn()) {
       Attempt softer = WithSofterFeet(best, guess);
-      if (softer.missed < best.missed && softer.worse.empty()) best = std::move(softer);
+      const bool fewer = !interrupted_ && softer.missed < best.missed && softer.worse.empty();
+      if (fewer) best = std::move(softer);
     }
     (start == Start::kSimulated ? result_->start.simulated_cost : result_->start.template_cost) =
         best.solve.cost;
@@ -154,23 +151,24 @@ class Attempts {
     out.solve.cost = problem_.Cost(out.solve.unknowns, 1, NumThreads(settings.solve.threads));
     char weight[32];
     std::snprintf(weight, sizeof weight, "%.3g", settings.weights.foot_swing);
-    out.cure = attempt.cure + (attempt.cure.empty() ? "" : "; ") +
-               "free feet were flung or slid: the clip was solved again with weights.foot_swing " +
-               weight;
+    out.remedy =
+        attempt.remedy + (attempt.remedy.empty() ? "" : "; ") +
+        "free feet were flung or slid: the clip was solved again with weights.foot_swing " + weight;
     return out;
   }
 
   // The same without pass-throughs, as far as that can be.
   Attempt Cured(Attempt attempt) {
-    const bool deep = DeepestOf(attempt.metrics) > problem_.settings().requirements.penetration_m;
+    const bool deep = attempt.metrics.deepest_m() > problem_.settings().requirements.penetration_m;
     if ((attempt.metrics.pass_throughs.empty() && !deep) || !MayGoOn()) return attempt;
     Unknowns x = attempt.solve.unknowns;
     const int frames = CurePassThroughs(problem_, &x);
     if (frames == 0) return attempt;
     Attempt cured = Solve(x, {1});
     if (!Better(cured, attempt)) return attempt;
-    cured.cure = "limbs went through limbs from frame to frame: " + std::to_string(frames) +
-                 " frames were solved again from the side of the template, and the clip once more";
+    cured.remedy =
+        "limbs went through limbs from frame to frame: " + std::to_string(frames) +
+        " frames were solved again from the side of the template, and the clip once more";
     return cured;
   }
 
@@ -208,16 +206,16 @@ class Attempts {
       attempt->worse_by += by;
     };
     for (size_t k = 0; k < m.tangles.size(); ++k) {
-      const double enough = std::min(required.gli, SmallestOf(baseline_->tangles[k]));
-      const double missing = enough - SmallestOf(m.tangles[k]);
+      const double enough = std::min(required.gli, baseline_->tangles[k].smallest());
+      const double missing = enough - m.tangles[k].smallest();
       if (missing > 0) worse("tag " + std::to_string(k + 1), missing / kTangleThreshold);
     }
     if (static_cast<int>(m.pass_throughs.size()) >
         std::max(required.pass_throughs, static_cast<int>(baseline_->pass_throughs.size()))) {
       worse("pass-throughs", 0);
     }
-    const double allowed = std::max(required.penetration_m, DeepestOf(*baseline_));
-    const double deeper = DeepestOf(m) - allowed;
+    const double allowed = std::max(required.penetration_m, baseline_->deepest_m());
+    const double deeper = m.deepest_m() - allowed;
     if (deeper > 0) worse("penetration", deeper / std::max(allowed, 1e-3));
   }
 

@@ -3,9 +3,8 @@
 // A solve that converges may still show what no step can mend: a limb on the wrong side, where it
 // came to lie while contacts were weak, or a limb that goes through a limb from one frame to the
 // next. The clip is then solved again, as far as each of these applies:
-//   - frames beyond a pass-through are solved again from the side of the template's
-//   (CurePassThroughs)
-//     and the clip is made even;
+//   - frames beyond a pass-through are solved again from the side of the template's, and the clip
+//     is made even (CurePassThroughs);
 //   - from the same start with full contacts, where a requirement is missed;
 //   - from the same start with free feet guided more softly, where only those miss;
 //   - from the other start, and from the simulated motion as it is, where the result is worse than

@@ -10,12 +10,6 @@
 namespace retarget::solver {
 namespace {
 
-std::string Describe(const Scene& scene, const Tangle& t) {
-  const auto name = [&](int figure, int node) { return scene.body[figure].nodes[node].name; };
-  return "a (" + name(0, t.a.from) + ", " + name(0, t.a.to) + ") x b (" + name(1, t.b.from) + ", " +
-         name(1, t.b.to) + ")";
-}
-
 std::string WithNumber(const std::string& text, double value) {
   char number[32];
   std::snprintf(number, sizeof number, "%.2f", value);
@@ -24,7 +18,8 @@ std::string WithNumber(const std::string& text, double value) {
 
 void WarnOfWeakTags(RetargetResult* result) {
   for (const TangleTarget& held : result->scene.tangles) {
-    const std::string who = Describe(result->scene, held.tag.tangle);
+    const std::string who =
+        TangleText(result->scene.body[0], result->scene.body[1], held.tag.tangle);
     if (IsWeak(held.tag)) {
       result->warnings.push_back(WithNumber("tag " + who + " is weak in the template: |GLI| ",
                                             std::abs(held.tag.tangle.gli)));
@@ -40,10 +35,10 @@ void WarnOfWeakTags(RetargetResult* result) {
 }
 
 // A figure that stands in the template, and in whose clip no foot is ever planted.
-void WarnOfFeet(int f, RetargetResult* result) {
+void WarnOfFeet(int f, const Settings& settings, RetargetResult* result) {
   const Scene& scene = result->scene;
   if (scene.posture.supports[f].empty() || !scene.contacts[f].empty()) return;
-  const Travel travel = FindTravel(scene.body[f], scene.source[f], ContactSettings());
+  const Travel travel = FindTravel(scene.body[f], scene.source[f], settings.contact);
   char sentence[160];
   std::snprintf(
       sentence, sizeof sentence,
@@ -75,7 +70,7 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
   }
   scene.base = EditBase(scene);
   WarnOfWeakTags(&result);
-  for (int f = 0; f < 2; ++f) WarnOfFeet(f, &result);
+  for (int f = 0; f < 2; ++f) WarnOfFeet(f, settings, &result);
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "model/geometry/quantile.h"
+
 namespace retarget::io::bvh {
 namespace {
 
@@ -28,9 +30,7 @@ double DistanceFrom(const BvhFile& file, size_t joint, const Vec3& place) {
     }
     distances.push_back(off.norm());
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return Median(std::move(distances));
 }
 
 // A root with an OFFSET may carry it in its channels, as usual, in a file of displacements too.

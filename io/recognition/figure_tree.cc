@@ -46,4 +46,28 @@ bool ArrangeTrunk(const Rig& rig, const std::function<std::vector<int>(int)>& na
   return true;
 }
 
+int HeadByWords(const Rig& rig, const std::vector<JointWords>& words, const JointMap& map) {
+  const int arms = CommonAncestor(rig, map.left.shoulder, map.right.shoulder);
+  for (int j = 0; arms >= 0 && j < rig.num_joints(); ++j) {
+    const bool on_arm =
+        DescendsFrom(rig, j, map.left.shoulder) || DescendsFrom(rig, j, map.right.shoulder);
+    if (words[j].part == BodyPart::kHead && j != arms && !on_arm && DescendsFrom(rig, j, arms)) {
+      return j;
+    }
+  }
+  return -1;
+}
+
+bool ArrangeByWords(const Rig& rig, const std::vector<JointWords>& words, JointMap* map) {
+  const auto named_necks = [&](int root) {
+    std::vector<int> named;
+    for (int j = 0; j < rig.num_joints(); ++j) {
+      if (words[j].part == BodyPart::kNeck && DescendsFrom(rig, j, root)) named.push_back(j);
+    }
+    return named;
+  };
+  bool neck_named = false;
+  return ArrangeTrunk(rig, named_necks, map, &neck_named);
+}
+
 }  // namespace retarget::io

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "io/recognition/joint_words.h"
 #include "model/rig/rig.h"
 
 namespace retarget::io {
@@ -14,5 +15,11 @@ namespace retarget::io {
 // share no root. `neck_named` tells whether a bone of that list was taken.
 bool ArrangeTrunk(const Rig& rig, const std::function<std::vector<int>(int)>& named_necks,
                   JointMap* map, bool* neck_named);
+
+// The first joint of that word beyond the arms; -1 where there is none.
+int HeadByWords(const Rig& rig, const std::vector<JointWords>& words, const JointMap& map);
+
+// ArrangeTrunk with the necks that the words tell.
+bool ArrangeByWords(const Rig& rig, const std::vector<JointWords>& words, JointMap* map);
 
 }  // namespace retarget::io

@@ -18,10 +18,4 @@ namespace retarget::io {
 NameMatch MatchWords(const Rig& rig, const std::vector<JointWords>& words,
                      const std::vector<PosedRig>& poses);
 
-// Fills parts that a map leaves open (collar bones, wrists, ankles, toes, hands, head): by words,
-// else by the only place in the tree that can be meant, if the lengths allow it. Returns what was
-// filled by place, "left_wrist ('left_hand')".
-std::vector<std::string> FillOpenParts(const Rig& rig, const std::vector<JointWords>& words,
-                                       const std::vector<PosedRig>& poses, JointMap* map);
-
 }  // namespace retarget::io

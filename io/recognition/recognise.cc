@@ -16,6 +16,7 @@
 #include "io/recognition/limb_words.h"
 #include "io/recognition/loose_bones.h"
 #include "io/recognition/map_joints.h"
+#include "io/recognition/open_parts.h"
 #include "io/recognition/rig_check.h"
 #include "io/recognition/rig_measure.h"
 #include "io/recognition/rig_units.h"

@@ -3,23 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/geometry/quantile.h"
+
 namespace retarget {
 namespace {
 
 constexpr double kTimeSlack = 1e-4;  // s; rates such as 1/0.033333 do not cut a run short
-
-double FifthPercentile(std::vector<double> values) {
-  const size_t k = static_cast<size_t>(std::floor(0.05 * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(k), values.end());
-  return values[k];
-}
 
 std::vector<bool> PlantedFrames(const std::vector<Vec3>& p, double fps,
                                 const ContactSettings& settings) {
   const int n = static_cast<int>(p.size());
   std::vector<double> heights;
   for (const Vec3& x : p) heights.push_back(x.y());
-  const double ceiling = FifthPercentile(heights) + settings.height;
+  const double ceiling = Quantile(std::move(heights), 0.05) + settings.height;
   std::vector<bool> planted(p.size());
   for (int k = 0; k < n; ++k) {
     const int before = std::max(k - 1, 0), after = std::min(k + 1, n - 1);

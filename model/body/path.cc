@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/geometry/gli.h"
+#include "model/geometry/polyline.h"
 
 namespace retarget {
 
@@ -44,6 +45,11 @@ std::vector<Vec3> PointsOn(const std::vector<Vec3>& position, const std::vector<
   points.reserve(nodes.size());
   for (const int n : nodes) points.push_back(position[n]);
   return points;
+}
+
+double GliOfPaths(const Body& a, const std::vector<Vec3>& nodes_a, const Path& path_a,
+                  const Body& b, const std::vector<Vec3>& nodes_b, const Path& path_b) {
+  return PolylineGli(PointsOn(nodes_a, NodesOn(a, path_a)), PointsOn(nodes_b, NodesOn(b, path_b)));
 }
 
 }  // namespace retarget

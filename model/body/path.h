@@ -30,4 +30,8 @@ MatX SegmentGliTable(const Body& a, const std::vector<Vec3>& nodes_a, const Body
 // The points of a polyline: positions of the nodes that a path visits.
 std::vector<Vec3> PointsOn(const std::vector<Vec3>& position, const std::vector<int>& nodes);
 
+// GLI (turns) of a path over one posture against a path over another.
+double GliOfPaths(const Body& a, const std::vector<Vec3>& nodes_a, const Path& path_a,
+                  const Body& b, const std::vector<Vec3>& nodes_b, const Path& path_b);
+
 }  // namespace retarget

@@ -89,6 +89,15 @@ VecX CrossingVector(const Body& a, const Body& b, const MatX& table, const Tangl
 
 }  // namespace
 
+std::string TangleText(const Body& a, const Body& b, const Tangle& tangle) {
+  const auto path = [](const char* figure, const Body& body, const Path& p) {
+    std::string text = figure;
+    text.append(" (").append(body.nodes[p.from].name).append(", ");
+    return text.append(body.nodes[p.to].name).append(")");
+  };
+  return path("a", a, tangle.a).append(" x ").append(path("b", b, tangle.b));
+}
+
 std::vector<Tangle> FindTangles(const Body& a, const Body& b, const MatX& table) {
   const PathList pa(a), pb(b);
   const MatX g = RootPathTable(a, b, table);

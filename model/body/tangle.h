@@ -2,6 +2,7 @@
 // the small set of them that is worth holding on to.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/body/body.h"
@@ -18,6 +19,9 @@ struct Tangle {
   Path a, b;
   double gli = 0;
 };
+
+// "a (left_hand, right_hand) x b (neck, root)".
+std::string TangleText(const Body& a, const Body& b, const Tangle& tangle);
 
 // Algorithm 1: every pair of paths whose |GLI| is above one half and larger than that of every pair
 // of their sub-paths. `table` is SegmentGliTable of the posture. All pairs by prefix sums from the

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/body/contact.h"
+#include "model/geometry/quantile.h"
 
 namespace retarget {
 namespace {
@@ -37,9 +38,7 @@ double StanceShare(const std::vector<FootPath>& feet, double fps, const ContactS
 double FifthPercentileHeight(const FootPath& foot) {
   std::vector<double> height;
   for (const Vec3& p : foot) height.push_back(p.y());
-  const auto k = height.begin() + static_cast<long>(0.05 * static_cast<double>(height.size() - 1));
-  std::nth_element(height.begin(), k, height.end());
-  return *k;
+  return Quantile(std::move(height), 0.05);
 }
 
 Vec3 Velocity(const FootPath& foot, int t, double fps) {
@@ -140,12 +139,6 @@ Treadmill PlantedOnly(const Treadmill& all, const std::vector<FootPath>& feet,
     if (out.weight[t] > 0) out.velocity[t] /= out.weight[t];
   }
   return out;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

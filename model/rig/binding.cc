@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/geometry/quantile.h"
 #include "model/geometry/so3.h"
 #include "model/rig/standard_links.h"
 
@@ -11,13 +12,7 @@ namespace {
 
 constexpr int kMostSamples = 300;  // frames looked at for lengths and the reference
 
-double Median(std::vector<double> values) {
-  const size_t k = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(k), values.end());
-  return values[k];
-}
-
-Vec3 Median(const std::vector<Vec3>& points) {
+Vec3 MedianPoint(const std::vector<Vec3>& points) {
   Vec3 out;
   for (int k = 0; k < 3; ++k) {
     std::vector<double> values;
@@ -176,12 +171,12 @@ BodyMeasures RigBinding::Measure(const std::vector<World>& frames) const {
     BodyMeasures::Side& side = s == 0 ? m.left : m.right;
     const int arm = s == 0 ? kLeftClavicle : kRightClavicle;
     const int leg = s == 0 ? kLeftHip : kRightHip;
-    side.clavicle = Median(clavicle[s]);
+    side.clavicle = MedianPoint(clavicle[s]);
     side.clavicle_shoulder = known(arm);
     side.shoulder_elbow = known(arm + 1);
     side.elbow_wrist = known(arm + 2);
     side.wrist_hand = known(arm + 3);
-    side.hip = Median(hip[s]);
+    side.hip = MedianPoint(hip[s]);
     side.hip_knee = known(leg);
     side.knee_ankle = known(leg + 1);
     side.ankle_toe = known(leg + 2);
@@ -240,7 +235,7 @@ void RigBinding::LimitWaist(const std::vector<World>& frames) {
     }
     reach.push_back(length);
   }
-  const Vec3 pivot = Median(first);
+  const Vec3 pivot = MedianPoint(first);
   const double p = pivot.norm(), r = body_.nodes[1].offset.norm();
   if (p < 0.01) return;  // the spine begins at the root: no limit
   const double longest = Median(reach) + kSpineSlack;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/geometry/quantile.h"
+
 namespace retarget {
 namespace {
 
@@ -35,10 +37,7 @@ double Usual(const std::vector<Step>& steps, int t, int reach) {
   for (int s = std::max(0, t - reach); s <= std::min(last, t + reach); ++s) {
     if (s != t) around.push_back(steps[s].speed);
   }
-  if (around.empty()) return 0;
-  const auto middle = around.begin() + static_cast<long>(around.size() / 2);
-  std::nth_element(around.begin(), middle, around.end());
-  return *middle;
+  return around.empty() ? 0 : Median(std::move(around));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "model/body/body.h"
+#include "model/geometry/quantile.h"
 
 namespace retarget {
 namespace {
@@ -16,12 +17,6 @@ constexpr double kShortestHead = 0.08, kTallestHead = 0.30;  // from its joint t
 constexpr double kSamePlace = 0.005;  // joints nearer than this stand at one place
 constexpr double kApart = 0.04;       // of the neck, and of the root if there is a choice
 constexpr double kBarelyApart = 0.02;
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Vec3 Direction(const Vec3& v) { return v.norm() > 0 ? Vec3(v.normalized()) : Vec3::Zero(); }
 

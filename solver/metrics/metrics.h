@@ -1,6 +1,7 @@
 // The field's metrics of a two-figure motion, from geometry alone (definitions: docs/metrics.md).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
@@ -19,6 +20,7 @@ struct TangleMetrics {
   double min_signed_gli_between = 0;  // the same at 4x sub-sampling
   int frames_below_half = 0;
   int worst_frame = 0;
+  double smallest() const { return std::min(min_signed_gli, min_signed_gli_between); }
 };
 
 struct FigureMetrics {
@@ -51,7 +53,8 @@ struct Metrics {
   int penetration_frame = 0;
   int penetration_node_a = 0, penetration_node_b = 0;
   double penetration_over_1cm_percent = 0;  // of frames
-  std::vector<double> hold_m;               // largest error per hold
+  double deepest_m() const { return std::max(penetration_m, penetration_between_m); }
+  std::vector<double> hold_m;  // largest error per hold
   std::vector<int> hold_frame;
   std::array<FigureMetrics, 2> figure;
 };

@@ -33,7 +33,7 @@ class Requiring {
   void CheckTangle(int k) {
     const Tangle& t = subject_.tangles[k].tag.tangle;
     const TangleMetrics& m = m_.tangles[k];
-    const double value = std::min(m.min_signed_gli, m.min_signed_gli_between);
+    const double value = m.smallest();
     checks_.push_back({.kind = Kind::kTangle,
                        .item = k,
                        .value = value,
@@ -51,7 +51,7 @@ class Requiring {
       pass.frame = p.frame;
       pass.limbs = {{0, p.node_a}, {1, p.node_b}};
     }
-    const double deepest = std::max(m_.penetration_m, m_.penetration_between_m);
+    const double deepest = m_.deepest_m();
     AtMost(Kind::kPenetration, deepest, r_.penetration_m);
     AtMost(Kind::kPenetrationOver1cm, m_.penetration_over_1cm_percent, r_.penetration_1cm_percent);
     if (deepest <= 0) return;
@@ -75,42 +75,46 @@ class Requiring {
     floor.limbs = {{f, m.floor_node}};
   }
 
-  // Of the swing, and of the edge, that is the largest multiple of what is allowed.
-  void CheckSwings(int f) {
-    const auto limit = [&](const Swing& s) {
-      return std::max(r_.foot_travel_ratio * s.source_m, r_.foot_travel_m) +
-             kStrideNearFloor * s.stride_m;
+  // Of what is the largest multiple of what it may be: `value_of` and `limit_of` of each. `limit`
+  // is said where there is nothing to judge.
+  template <typename Part, typename ValueOf, typename LimitOf>
+  const Part* CheckWorst(Kind kind, int figure, const std::vector<Part>& parts, double limit,
+                         const ValueOf& value_of, const LimitOf& limit_of) {
+    const auto less = [&](const Part& x, const Part& y) {
+      return value_of(x) * limit_of(y) < value_of(y) * limit_of(x);
     };
-    const Swing* worst = nullptr;
-    for (const Swing& s : m_.figure[f].swings) {
-      if (!worst || s.travel_m * limit(*worst) > worst->travel_m * limit(s)) worst = &s;
-    }
-    RequirementCheck& check = worst ? AtMost(Kind::kFootTravel, worst->travel_m, limit(*worst))
-                                    : AtMost(Kind::kFootTravel, kNothingMeasured, r_.foot_travel_m);
-    check.figure = f;
-    if (!worst) return;
-    check.frame = worst->first;
-    check.limbs = {{f, worst->node}};
+    const auto worst = std::max_element(parts.begin(), parts.end(), less);
+    const bool none = worst == parts.end();
+    RequirementCheck& check = none ? AtMost(kind, kNothingMeasured, limit)
+                                   : AtMost(kind, value_of(*worst), limit_of(*worst));
+    check.figure = figure;
+    if (none) return nullptr;
+    check.limbs = {{figure, worst->node}};
+    return &*worst;
+  }
+
+  void CheckSwings(int f) {
+    const Swing* worst = CheckWorst(
+        Kind::kFootTravel, f, m_.figure[f].swings, r_.foot_travel_m,
+        [](const Swing& s) { return s.travel_m; },
+        [&](const Swing& s) {
+          return std::max(r_.foot_travel_ratio * s.source_m, r_.foot_travel_m) +
+                 kStrideNearFloor * s.stride_m;
+        });
+    if (worst) checks_.back().frame = worst->first;
   }
 
   void CheckEdges(int f) {
-    const auto limit = [&](const ContactEdge& e) {
-      const double least =
-          (e.swing_s > 0 ? kStrideAcceleration * e.stride_m / (e.swing_s * e.swing_s) : 0) +
-          kLedAcceleration * e.led_m_s;
-      return std::max(r_.foot_acceleration_ratio * e.source, r_.foot_acceleration) + least;
-    };
-    const ContactEdge* worst = nullptr;
-    for (const ContactEdge& e : m_.figure[f].edges) {
-      if (!worst || e.acceleration * limit(*worst) > worst->acceleration * limit(e)) worst = &e;
-    }
-    RequirementCheck& check =
-        worst ? AtMost(Kind::kFootAcceleration, worst->acceleration, limit(*worst))
-              : AtMost(Kind::kFootAcceleration, kNothingMeasured, r_.foot_acceleration);
-    check.figure = f;
-    if (!worst) return;
-    check.frame = worst->frame;
-    check.limbs = {{f, worst->node}};
+    const ContactEdge* worst = CheckWorst(
+        Kind::kFootAcceleration, f, m_.figure[f].edges, r_.foot_acceleration,
+        [](const ContactEdge& e) { return e.acceleration; },
+        [&](const ContactEdge& e) {
+          const double least =
+              (e.swing_s > 0 ? kStrideAcceleration * e.stride_m / (e.swing_s * e.swing_s) : 0) +
+              kLedAcceleration * e.led_m_s;
+          return std::max(r_.foot_acceleration_ratio * e.source, r_.foot_acceleration) + least;
+        });
+    if (worst) checks_.back().frame = worst->frame;
   }
 
   void CheckHold(int k) {

@@ -5,25 +5,24 @@
 #include <cmath>
 #include <map>
 
-#include "model/body/path.h"
-#include "model/geometry/capsule.h"
-#include "model/geometry/polyline.h"
+#include "solver/proof/claim_judge.h"
 #include "solver/proof/claims.h"
-#include "solver/proof/gli_bound.h"
 #include "solver/proof/posture_track.h"
 
 namespace retarget::solver {
 namespace {
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
-constexpr double kUnknown = std::numeric_limits<double>::infinity();
 // Smallest stretches of an interval in which one claim may be undecided before no more is asked.
 constexpr int kMostUndecided = 8;
 
 class Prover {
  public:
   explicit Prover(const ProofTask& task)
-      : task_(task), claims_(ClaimsOf(task)), track_(task, claims_.num_pairs) {
+      : task_(task),
+        claims_(ClaimsOf(task)),
+        judge_(task, claims_),
+        track_(task, claims_.num_pairs) {
     for (Statement& s : claims_.statements) s.value = s.bound = kNothing;
     finding_of_.assign(claims_.claims.size(), -1);
     given_up_.assign(claims_.claims.size(), 0);
@@ -35,8 +34,6 @@ class Prover {
     const auto begin = std::chrono::steady_clock::now();
     const int keys = task_.motion.num_keys();
     track_.Place(0, 0, &ends_[0]);
-    foot_start_ = {std::vector<Vec3>(task_.subject.contacts[0].size()),
-                   std::vector<Vec3>(task_.subject.contacts[1].size())};
     // A motion of one key stands still: an interval of no length.
     for (key_ = 0; key_ + 1 < std::max(2, keys); ++key_) {
       const int next = std::min(key_ + 1, keys - 1);
@@ -74,12 +71,7 @@ class Prover {
     now_ = &out_.intervals.back();
     now_->evaluations = 0;
     now_->bound.assign(claims_.statements.size(), kNothing);
-    for (int f = 0; f < 2; ++f) {
-      for (size_t c = 0; c < task_.subject.contacts[f].size(); ++c) {
-        const Contact& contact = task_.subject.contacts[f][c];
-        if (contact.first == key_) foot_start_[f][c] = ends_[0].node[f][contact.node];
-      }
-    }
+    judge_.StartContacts(key_, ends_[0]);
     // Every claim that is about this interval, but for pairs that are far apart all the time.
     open_.clear();
     FindNearPairs();
@@ -98,10 +90,9 @@ class Prover {
       return contact.first <= key_ && key_ < contact.last;
     }
     // A rigid segment is shown at the first key.
-    if (claim.type == ClaimType::kLength) return key_ == 0 || !Rigid(claim);
+    if (claim.type == ClaimType::kLength) return key_ == 0 || !judge_.Rigid(claim);
     return true;
   }
-  bool Rigid(const Claim& claim) const { return claims_.rigid[claim.figure][claim.node_1] != 0; }
 
   // Pairs whose capsules cannot touch, by spheres round the segments; the others are open.
   void FindNearPairs() {
@@ -146,14 +137,14 @@ class Prover {
     for (const int c : open) {
       if (given_up_[c] >= kMostUndecided) continue;
       const Claim& claim = claims_.claims[c];
-      Judged judged;
+      Judgement judged;
       if (claim.type == ClaimType::kFree || claim.type == ClaimType::kDepth) {
         const int pair = c % claims_.num_pairs;
-        if (pair != free_pair) free = PairBound(i0, i1, claim, pair, level.points);
+        if (pair != free_pair) free = judge_.PairBound(i0, i1, claim, pair, level.points);
         free_pair = pair;
-        judged = JudgePair(i0, i1, claim, pair, free);
+        judged = judge_.OfPair(i0, i1, claim, pair, free);
       } else {
-        judged = Judge(i0, i1, claim, level);
+        judged = judge_.Of(i0, i1, claim, level.points, {&level.open_pairs, &met_});
       }
       if (Settle(c, claim, i0, i1, judged, smallest)) continue;
       level.open.push_back(c);
@@ -166,115 +157,9 @@ class Prover {
     Certify(level.middle, i1, level.open, depth + 1);
   }
 
-  // Values at both ends and a bound on all between, larger is worse.
-  struct Judged {
-    double v0 = 0, v1 = 0, bound = 0;
-  };
-
-  const Gap& GapAt(Instant& i, const Claim& claim, int pair) {
-    if (!i.gap_known[pair]) {
-      const std::array<Body, 2>& body = task_.subject.body;
-      const std::vector<Vec3>&p = i.node[0], &q = i.node[1];
-      const ClosestPoints closest =
-          ClosestPointsOfSegments(p[body[0].nodes[claim.node_1].parent], p[claim.node_1],
-                                  q[body[1].nodes[claim.node_2].parent], q[claim.node_2]);
-      i.gap[pair] = {closest.distance, closest.normal};
-      i.gap_known[pair] = 1;
-    }
-    return i.gap[pair];
-  }
-
-  double PairBound(Instant& i0, Instant& i1, const Claim& claim, int pair,
-                   const MovingFigures& points) {
-    const std::array<Body, 2>& body = task_.subject.body;
-    const MovingSegment p = {&points.node[0][body[0].nodes[claim.node_1].parent],
-                             &points.node[0][claim.node_1]};
-    const MovingSegment q = {&points.node[1][body[1].nodes[claim.node_2].parent],
-                             &points.node[1][claim.node_2]};
-    return GapBound(p, q, GapAt(i0, claim, pair), GapAt(i1, claim, pair), points.carried);
-  }
-
-  Judged JudgePair(Instant& i0, Instant& i1, const Claim& claim, int pair, double free) {
-    const double d0 = GapAt(i0, claim, pair).distance, d1 = GapAt(i1, claim, pair).distance;
-    const double radii = claim.type == ClaimType::kFree
-                             ? 0
-                             : task_.subject.body[0].nodes[claim.node_1].radius +
-                                   task_.subject.body[1].nodes[claim.node_2].radius;
-    return {radii - d0, radii - d1, radii - free};
-  }
-
-  Judged Judge(Instant& i0, Instant& i1, const Claim& claim, Level& level) {
-    switch (claim.type) {
-      case ClaimType::kTag:
-        return JudgeTag(i0, i1, claim, level);
-      case ClaimType::kHold: {
-        const auto& points = level.points.held[claim.item];
-        return {(points[0].at0 - points[1].at0).norm(), (points[0].at1 - points[1].at1).norm(),
-                LargestDistance(points[0], points[1])};
-      }
-      case ClaimType::kFoot: {
-        MovingPoint foot = level.points.node[claim.figure][claim.node_1];
-        MovingPoint start;
-        start.at0 = start.at1 = foot_start_[claim.figure][claim.item];
-        for (Vec3* at : {&foot.at0, &foot.at1, &start.at0, &start.at1}) at->y() = 0;
-        return {(foot.at0 - start.at0).norm(), (foot.at1 - start.at1).norm(),
-                LargestDistance(foot, start)};
-      }
-      case ClaimType::kFloor: {
-        const MovingPoint& node = level.points.node[claim.figure][claim.node_1];
-        const double radius = claims_.radius[claim.figure][claim.node_1];
-        const double v0 = radius - node.at0.y(), v1 = radius - node.at1.y();
-        return {v0, v1, std::max(v0, v1) + node.stray() + kLengthMargin};
-      }
-      case ClaimType::kLength:
-        return JudgeLength(claim, level);
-      case ClaimType::kFree:
-      case ClaimType::kDepth:
-        break;
-    }
-    return {};
-  }
-
-  Judged JudgeTag(Instant& i0, Instant& i1, const Claim& claim, const Level& level) {
-    const TagPaths& paths = claims_.tags[claim.item];
-    const auto gli_at = [&](Instant& i) {
-      if (std::isnan(i.gli[claim.item])) {
-        i.gli[claim.item] = task_.subject.tangles[claim.item].sign *
-                            PolylineGli(PointsOn(i.node[0], paths.a), PointsOn(i.node[1], paths.b));
-      }
-      return i.gli[claim.item];
-    };
-    const double g0 = gli_at(i0), g1 = gli_at(i1);
-    // The lemma holds where no pair of the two paths' segments meets.
-    const auto blocks = [&](int pair) { return paths.pairs[pair] != 0; };
-    if (std::any_of(level.open_pairs.begin(), level.open_pairs.end(), blocks) ||
-        std::any_of(met_.begin(), met_.end(), blocks)) {
-      return {-g0, -g1, kUnknown};
-    }
-    const auto points_on = [](const std::vector<MovingPoint>& node, const std::vector<int>& path,
-                              std::vector<const MovingPoint*>* out) {
-      out->clear();
-      for (const int n : path) out->push_back(&node[n]);
-    };
-    points_on(level.points.node[0], paths.a, &path_[0]);
-    points_on(level.points.node[1], paths.b, &path_[1]);
-    const GliChange change = BoundGliChange(path_[0], path_[1], level.points.carried);
-    return {-g0, -g1, -GliBound(g0, g1, change)};
-  }
-
-  Judged JudgeLength(const Claim& claim, const Level& level) const {
-    const std::vector<MovingPoint>& node = level.points.node[claim.figure];
-    const MovingPoint &p = node[claim.node_1], &q = node[claim.node_2];
-    const double should = task_.subject.length[claim.figure][claim.node_1];
-    const auto error = [&](double is) { return 100 * std::abs(is / should - 1); };
-    const double v0 = error((p.at0 - q.at0).norm()), v1 = error((p.at1 - q.at1).norm());
-    if (Rigid(claim)) return {v0, v0, v0 + 100 * kLengthMargin / should};
-    return {v0, v1, std::max(error(LargestDistance(p, q)), error(LeastDistance(p, q)))};
-  }
-
   // True where nothing more is to be found out about a claim between two instants.
-  bool Settle(int c, const Claim& claim, const Instant& i0, const Instant& i1, const Judged& judged,
-              bool smallest) {
+  bool Settle(int c, const Claim& claim, const Instant& i0, const Instant& i1,
+              const Judgement& judged, bool smallest) {
     Meet(claim, judged.v0);
     Meet(claim, judged.v1);
     if (judged.bound <= claim.limit) {
@@ -305,7 +190,7 @@ class Prover {
   // Notes that a claim fails in this interval, and asks no more of it before the next key where it
   // is lost, or undecided again and again.
   void Record(int c, const Claim& claim, bool lost, double share, double value) {
-    now_->bound[claim.statement] = kUnknown;
+    now_->bound[claim.statement] = kUndecided;
     const bool first_here = given_up_[c] == 0;
     given_up_[c] = lost ? kMostUndecided : given_up_[c] + 1;
     if (first_here) recorded_.push_back(c);
@@ -339,12 +224,11 @@ class Prover {
 
   const ProofTask& task_;
   Claims claims_;
+  ClaimJudge judge_;
   PostureTrack track_;
   std::array<Instant, 2> ends_;
   IntervalBounds bounds_;
   std::array<std::vector<Sphere>, 2> spheres_;
-  std::array<std::vector<Vec3>, 2> foot_start_;
-  std::array<std::vector<const MovingPoint*>, 2> path_;
   std::vector<Level> levels_;
   std::vector<int> open_;
   std::vector<int> finding_of_;    // [claims] -1: none

@@ -5,7 +5,7 @@
 namespace retarget::solver {
 
 Control::Control(const Scene& scene, const SimulationSettings& settings)
-    : scene_(scene), settings_(settings), meeting_(RootDriftCorrection(scene)) {
+    : scene_(scene), settings_(settings), drift_correction_(RootDriftCorrection(scene)) {
   for (int f = 0; f < 2; ++f) {
     relative_[f] = RelativeRootTargets(scene, f);
     for (const Link& link : scene.body[f].links) {
@@ -28,8 +28,8 @@ ControlTarget Control::TargetAt(int t, int next, double u, const PhysicsWorld& w
   const double frame_time = 1 / scene_.fps();
   ControlTarget target;
   for (int f = 0; f < 2; ++f) {
-    const Pose from = ShiftedRoot(scene_.source[f].frames[t], meeting_[f][t]);
-    const Pose to = ShiftedRoot(scene_.source[f].frames[next], meeting_[f][next]);
+    const Pose from = ShiftedRoot(scene_.source[f].frames[t], drift_correction_[f][t]);
+    const Pose to = ShiftedRoot(scene_.source[f].frames[next], drift_correction_[f][next]);
     target.pose[f] = Interpolate(from, to, u);
     target.root_velocity[f] = (to.root_position - from.root_position) / frame_time;
     for (size_t l = 0; l < from.rotation.size(); ++l) {

@@ -41,7 +41,7 @@ class Control {
   const SimulationSettings& settings_;
   std::array<std::vector<double>, 2> stiffness_;  // per link (N m/rad)
   std::array<std::vector<RelativeRoot>, 2> relative_;
-  std::array<std::vector<RootShift>, 2> meeting_;
+  std::array<std::vector<RootShift>, 2> drift_correction_;
 };
 
 }  // namespace retarget::solver

@@ -6,7 +6,6 @@
 
 #include "model/body/pass_through.h"
 #include "model/body/path.h"
-#include "model/geometry/polyline.h"
 
 namespace retarget::solver {
 namespace {
@@ -38,9 +37,8 @@ void ClassifyTags(const Scene& scene, SimulationResult* result) {
   for (const TangleTarget& held : scene.tangles) {
     const auto lost_at = [&](int t) {
       const std::array<PosedBody, 2> posed = PosedAt(scene, *result, t);
-      return held.sign *
-                 PolylineGli(PointsOn(posed[0].node, NodesOn(scene.body[0], held.tag.tangle.a)),
-                             PointsOn(posed[1].node, NodesOn(scene.body[1], held.tag.tangle.b))) <
+      return held.sign * GliOfPaths(scene.body[0], posed[0].node, held.tag.tangle.a, scene.body[1],
+                                    posed[1].node, held.tag.tangle.b) <
              kLostGli;
     };
     int first = scene.num_frames(), last = -1;
@@ -48,11 +46,9 @@ void ClassifyTags(const Scene& scene, SimulationResult* result) {
     while (last + 1 < first && lost_at(last + 1)) ++last;
     const bool at_end = scene.num_frames() - first >= std::min(least, scene.num_frames());
     if (!at_end && last + 1 < least) continue;
-    const auto name = [&](int f, int n) { return scene.body[f].nodes[n].name; };
-    const Tangle& t = held.tag.tangle;
     Stop(result, SimulationStatus::kLostTangle,
-         "it lost the tag a (" + name(0, t.a.from) + ", " + name(0, t.a.to) + ") x b (" +
-             name(1, t.b.from) + ", " + name(1, t.b.to) + ") for good " +
+         "it lost the tag " + TangleText(scene.body[0], scene.body[1], held.tag.tangle) +
+             " for good " +
              (at_end ? "at frame " + std::to_string(first)
                      : "before frame " + std::to_string(last + 1)),
          at_end ? first : last + 1);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "model/body/path.h"
-#include "model/geometry/polyline.h"
 #include "solver/optimizer/spacetime.h"
 #include "solver/problem/problem.h"
 
@@ -21,8 +20,7 @@ constexpr double kRelativeDecrease = 1e-5;
 
 double GliOf(const TemplatePosture& posture, const std::array<PosedBody, 2>& posed,
              const Path& path_a, const Path& path_b) {
-  return PolylineGli(PointsOn(posed[0].node, NodesOn(posture.body[0], path_a)),
-                     PointsOn(posed[1].node, NodesOn(posture.body[1], path_b)));
+  return GliOfPaths(posture.body[0], posed[0].node, path_a, posture.body[1], posed[1].node, path_b);
 }
 
 std::array<PosedBody, 2> PosedFigures(const TemplatePosture& posture) {

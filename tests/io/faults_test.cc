@@ -6,6 +6,7 @@
 
 #include "io/gltf/container.h"
 #include "io/load_clip.h"
+#include "tests/io/read_back.h"
 #include "tests/test_data.h"
 
 namespace retarget::io {

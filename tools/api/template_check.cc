@@ -14,15 +14,10 @@ report::Json TangleJson(const Body& a, const Body& b, const Tangle& t) {
           {"gli", t.gli}};
 }
 
-std::string TangleLine(const Body& a, const Body& b, const Tangle& t) {
-  return fmt::format("a ({}, {}) x b ({}, {})", a.nodes[t.a.from].name, a.nodes[t.a.to].name,
-                     b.nodes[t.b.from].name, b.nodes[t.b.to].name);
-}
-
 std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags) {
   std::vector<std::string> warnings;
   for (const Tag& tag : tags) {
-    const std::string line = TangleLine(posture.body[0], posture.body[1], tag.tangle);
+    const std::string line = TangleText(posture.body[0], posture.body[1], tag.tangle);
     if (solver::IsWeak(tag)) {
       warnings.push_back(fmt::format("{} is weak: |GLI| {:.2f} is under {}", line,
                                      std::abs(tag.tangle.gli), solver::kWeakGli));

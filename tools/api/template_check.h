@@ -23,8 +23,6 @@ TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& sett
 // What is to be said of weak tags.
 std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags);
 
-// "a (left_hand, right_hand) x b (neck, root)".
-std::string TangleLine(const Body& a, const Body& b, const Tangle& tangle);
 report::Json TangleJson(const Body& a, const Body& b, const Tangle& tangle);
 
 }  // namespace retarget::api

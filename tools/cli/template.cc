@@ -101,11 +101,11 @@ int RunTangles(const std::string& path, const SettingsOptions& settings, bool js
   }
   fmt::print("{} literal tangles (Algorithm 1)\n", found.tangles.literal.size());
   for (const Tangle& t : found.tangles.literal) {
-    fmt::print("  {:<64} {:+.4f}\n", api::TangleLine(a, b, t), t.gli);
+    fmt::print("  {:<64} {:+.4f}\n", TangleText(a, b, t), t.gli);
   }
   fmt::print("{} tags\n", found.tangles.tags.size());
   for (const Tag& tag : found.tangles.tags) {
-    fmt::print("  {:<64} {:+.4f}  rho {:.3f}  stands for {}\n", api::TangleLine(a, b, tag.tangle),
+    fmt::print("  {:<64} {:+.4f}  rho {:.3f}  stands for {}\n", TangleText(a, b, tag.tangle),
                tag.tangle.gli, tag.rho, tag.group_size);
   }
   return kDone;
@@ -143,7 +143,7 @@ int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, b
         100 * metrics.figure[f].floor_m, 100 * metrics.figure[f].self_penetration_m);
   }
   for (const Tag& tag : tangles.tags) {
-    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n", api::TangleLine(bodies[0], bodies[1], tag.tangle),
+    fmt::print("tag {}: {:+.3f}, rho {:.3f}\n", TangleText(bodies[0], bodies[1], tag.tangle),
                tag.tangle.gli, tag.rho);
   }
   for (size_t k = 0; k < metrics.hold_m.size(); ++k) {

@@ -8,7 +8,6 @@
 #include "model/body/path.h"
 #include "model/body/shape.h"
 #include "model/geometry/capsule.h"
-#include "model/geometry/polyline.h"
 #include "solver/problem/terms/joint_limit.h"
 #include "solver/start/weak_tags.h"
 #include "tools/api/template_check.h"
@@ -192,8 +191,7 @@ std::vector<Tag> Remeasured(const std::vector<Tag>& tags, const TemplatePosture&
   std::vector<Tag> out = tags;
   for (Tag& tag : out) {
     Tangle& tangle = tag.tangle;
-    tangle.gli = PolylineGli(PointsOn(posed[0].node, NodesOn(a, tangle.a)),
-                             PointsOn(posed[1].node, NodesOn(b, tangle.b)));
+    tangle.gli = GliOfPaths(a, posed[0].node, tangle.a, b, posed[1].node, tangle.b);
     const double norm = TangleGradientNorm(a, posed[0], b, posed[1], tangle);
     tag.rho = (std::abs(tangle.gli) - kTangleThreshold) / std::max(norm, 1e-12);
   }

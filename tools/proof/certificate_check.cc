@@ -8,6 +8,7 @@
 #include "io/text/read_file.h"
 #include "solver/proof/advancement.h"
 #include "tools/proof/certificate.h"
+#include "tools/report/measured_scene.h"
 #include "tools/report/requirement_text.h"
 #include "tools/report/subject_json.h"
 
@@ -49,7 +50,7 @@ class Checker {
     const Requirements limits = io::ReadSettings(folder_ + "/config.yaml").requirements;
     const io::SceneMotion scene = io::ParseSceneGlb(glb, folder_ + "/scene.glb");
     const KeyedMotion motion = scene.Keyed();
-    const std::array<std::vector<int>, 2> nodes = NodesOf(scene, subject.body);
+    const std::array<std::vector<int>, 2> nodes = report::SceneNodes(scene, subject.body);
     const solver::ProofTask task{motion, nodes, subject, limits};
     ReadStatements(task);
     const solver::Advancement found = solver::CheckByAdvancement(task, statements_);

@@ -8,6 +8,7 @@
 #include "io/load_clip.h"
 #include "io/text/read_file.h"
 #include "solver/start/fit_template.h"
+#include "tools/report/measured_scene.h"
 
 namespace retarget::proof {
 namespace {
@@ -190,7 +191,7 @@ ForeignScene ReadNamedFigures(const std::string& path, const TemplatePosture& po
   ForeignScene out;
   out.motion = scene.Keyed();
   out.subject.body = posture.body;
-  out.node = NodesOf(scene, posture.body);
+  out.node = report::SceneNodes(scene, posture.body);
   MeasureLengths(&out);
   for (int f = 0; f < 2; ++f) {
     std::vector<double> posed(posture.body[f].nodes.size(), 0);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/report/measured_scene.h"
 #include "tools/report/requirement_json.h"
 #include "tools/report/requirement_text.h"
 
@@ -29,10 +30,7 @@ std::string Names(const std::vector<solver::LimbNode>& limbs, const std::array<B
 std::string LimbsText(const solver::Statement& s, const solver::Finding& finding,
                       const std::array<Body, 2>& body) {
   const std::vector<solver::LimbNode>& l = finding.limbs;
-  if (s.kind == Kind::kTangle && l.size() == 4) {
-    const auto node = [&](size_t k) { return body[l[k].figure].nodes[l[k].node].name; };
-    return fmt::format("a ({}, {}) x b ({}, {})", node(0), node(1), node(2), node(3));
-  }
+  if (s.kind == Kind::kTangle && l.size() == 4) return report::TagText(l, body);
   return Names(l, body);
 }
 
@@ -40,21 +38,10 @@ Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Js
 
 }  // namespace
 
-std::array<std::vector<int>, 2> NodesOf(const io::SceneMotion& scene,
-                                        const std::array<Body, 2>& body) {
-  std::array<std::vector<int>, 2> nodes;
-  for (int f = 0; f < 2; ++f) {
-    std::vector<std::string> names;
-    for (const Node& node : body[f].nodes) names.push_back(node.name);
-    nodes[f] = scene.FindNodes(report::kFigure[f], names);
-  }
-  return nodes;
-}
-
 solver::Proof ProveScene(const io::SceneMotion& scene, const solver::MetricsContext& subject,
                          const Requirements& limits) {
   const KeyedMotion motion = scene.Keyed();
-  const std::array<std::vector<int>, 2> nodes = NodesOf(scene, subject.body);
+  const std::array<std::vector<int>, 2> nodes = report::SceneNodes(scene, subject.body);
   return solver::Prove({motion, nodes, subject, limits});
 }
 

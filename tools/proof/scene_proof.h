@@ -11,10 +11,6 @@ namespace retarget::proof {
 
 using report::Json;
 
-// The nodes of a scene that are the nodes of both bodies: "a/<node>", "b/<node>".
-std::array<std::vector<int>, 2> NodesOf(const io::SceneMotion& scene,
-                                        const std::array<Body, 2>& body);
-
 solver::Proof ProveScene(const io::SceneMotion& scene, const solver::MetricsContext& subject,
                          const Requirements& limits);
 

@@ -7,19 +7,19 @@
 #include "tools/report/report.h"
 
 namespace retarget::report {
-namespace {
-
-std::vector<std::string> NodeNames(const Body& body) {
-  std::vector<std::string> names;
-  for (const Node& node : body.nodes) names.push_back(node.name);
-  return names;
+std::array<std::vector<int>, 2> SceneNodes(const io::SceneMotion& scene,
+                                           const std::array<Body, 2>& body) {
+  std::array<std::vector<int>, 2> nodes;
+  for (int f = 0; f < 2; ++f) {
+    std::vector<std::string> names;
+    for (const Node& node : body[f].nodes) names.push_back(node.name);
+    nodes[f] = scene.FindNodes(kFigure[f], names);
+  }
+  return nodes;
 }
 
-}  // namespace
-
 solver::MotionView ViewOfScene(const io::SceneMotion& scene, const std::array<Body, 2>& body) {
-  std::array<std::vector<int>, 2> nodes;
-  for (int f = 0; f < 2; ++f) nodes[f] = scene.FindNodes(kFigure[f], NodeNames(body[f]));
+  const std::array<std::vector<int>, 2> nodes = SceneNodes(scene, body);
   solver::MotionView view;
   const std::vector<double>& keys = scene.key_times;
   view.num_frames = static_cast<int>(keys.size());

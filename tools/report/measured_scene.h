@@ -12,6 +12,10 @@
 
 namespace retarget::report {
 
+// The nodes of a scene that are the nodes of both bodies: "a/<node>", "b/<node>".
+std::array<std::vector<int>, 2> SceneNodes(const io::SceneMotion& scene,
+                                           const std::array<Body, 2>& body);
+
 // A written scene as a motion to be measured.
 solver::MotionView ViewOfScene(const io::SceneMotion& scene, const std::array<Body, 2>& body);
 

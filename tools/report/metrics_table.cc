@@ -122,11 +122,9 @@ std::string MetricsTable(const solver::MetricsContext& subject, const solver::Me
   if (out.find('*') != std::string::npos) out += kStarNote;
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
     const Tangle& t = subject.tangles[k].tag.tangle;
-    const auto name = [&](int f, int n) { return subject.body[f].nodes[n].name; };
     out += fmt::format(
-        "tag {}: a ({}, {}) x b ({}, {}): template {:.2f}, smallest {:.3f}{}\n", k + 1,
-        name(0, t.a.from), name(0, t.a.to), name(1, t.b.from), name(1, t.b.to), t.gli,
-        result.tangles[k].min_signed_gli,
+        "tag {}: {}: template {:.2f}, smallest {:.3f}{}\n", k + 1,
+        TangleText(subject.body[0], subject.body[1], t), t.gli, result.tangles[k].min_signed_gli,
         baseline ? fmt::format(" (baseline {:.3f})", baseline->tangles[k].min_signed_gli) : "");
   }
   for (const solver::RequirementCheck& c : checks) {

@@ -109,7 +109,7 @@ std::string WorstPlace(const solver::RequirementCheck& check, const std::array<B
   };
   switch (check.kind) {
     case Kind::kTangle:
-      return fmt::format("a ({}, {}) x b ({}, {}), {}", node(0), node(1), node(2), node(3), frame);
+      return fmt::format("{}, {}", TagText(check.limbs, body), frame);
     case Kind::kPassThroughs:
       return pair("through");
     case Kind::kPenetration:
@@ -128,6 +128,11 @@ std::string WorstPlace(const solver::RequirementCheck& check, const std::array<B
       return "";
   }
   return "";
+}
+
+std::string TagText(const std::vector<solver::LimbNode>& limbs, const std::array<Body, 2>& body) {
+  return TangleText(body[0], body[1],
+                    {{limbs[0].node, limbs[1].node}, {limbs[2].node, limbs[3].node}});
 }
 
 std::string LimbName(const solver::LimbNode& limb, const std::array<Body, 2>& body) {

@@ -207,8 +207,8 @@ std::vector<Sentence> Stopped(const Json& report) {
     stopped.push_back(
         {fmt::format("The solver stopped early ({}); this is the best result so far.", status)});
   }
-  if (TextAt(report, "/start/requested") == "simulated" &&
-      TextAt(report, "/start/used") == "template") {
+  if (TextAt(report, "/start/requested") == NameOf(Start::kSimulated) &&
+      TextAt(report, "/start/used") == NameOf(Start::kTemplate)) {
     const std::string reason = TextAt(report, "/start/reason");
     if (!reason.empty()) stopped.push_back({reason, FrameAt(report, "/simulation/frame")});
   }

@@ -4,7 +4,7 @@
 
 namespace retarget::solver {
 
-RootTracking::RootTracking(const Scene& scene) : meeting_(RootDriftCorrection(scene)) {
+RootTracking::RootTracking(const Scene& scene) : drift_correction_(RootDriftCorrection(scene)) {
   for (int f = 0; f < 2; ++f) relative_[f] = RelativeRootTargets(scene, f);
 }
 
@@ -19,7 +19,7 @@ void RootTracking::EvaluatePart(const Frame& frame, int, Rows* rows) const {
 }
 
 bool RootTracking::EditIsError(const Frame& frame, int figure) const {
-  const RootShift& shift = meeting_[figure][frame.t];
+  const RootShift& shift = drift_correction_[figure][frame.t];
   const RootShift base = frame.scene->BaseOf(figure, frame.t);
   return relative_[figure].empty() && shift.yaw == base.yaw && shift.shift == base.shift;
 }
@@ -31,7 +31,7 @@ int RootTracking::row_slots(const Frame& frame) const {
 }
 
 void RootTracking::EvaluateLeader(const Frame& frame, int figure, Rows* rows) const {
-  const RootShift& shift = meeting_[figure][frame.t];
+  const RootShift& shift = drift_correction_[figure][frame.t];
   const Pose& source = frame.scene->source[figure].frames[frame.t];
   const int first = frame.scene->FirstCoordinate(figure);
   if (EditIsError(frame, figure)) {

@@ -31,7 +31,7 @@ class RootTracking : public Term {
   void EvaluateLeader(const Frame& frame, int figure, Rows* rows) const;
   void EvaluateFollower(const Frame& frame, int figure, Rows* rows) const;
   std::array<std::vector<RelativeRoot>, 2> relative_;
-  std::array<std::vector<RootShift>, 2> meeting_;
+  std::array<std::vector<RootShift>, 2> drift_correction_;
 };
 
 }  // namespace retarget::solver

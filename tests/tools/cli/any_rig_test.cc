@@ -5,6 +5,7 @@
 #include "io/load_clip.h"
 #include "model/geometry/so3.h"
 #include "model/rig/write_back.h"
+#include "tests/io/read_back.h"
 #include "tests/tools/run_program.h"
 #include "tools/cli/commands.h"
 #include "tools/report/report.h"
