@@ -175,6 +175,7 @@ const std::vector<Library>& Libraries() {
       {"glm/", {"io/scene"}, {}, 1},
       {"yaml-cpp/", {"io/text"}, {}, 1},
       {"png.h", {"io/render"}, {}, 1},
+      {"openssl/", {"io"}, {}, 1},
       {"stb/", {"io/render"}, {}, 1},
       {"CLI/", {"tools/cli"}, {}, 4},
       {"retarget/retarget.h", {"tools/examples"}, {}, kAnyNumber},  // as users include it

@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config ccache libceres-dev libeigen3-dev libglm-dev
           libtinygltf-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libpng-dev
-          libstb-dev libmujoco-dev libqhull-dev libgl-dev libcpp-httplib-dev)
+          libssl-dev libstb-dev libmujoco-dev libqhull-dev libgl-dev libcpp-httplib-dev)
 # The report page is built with them; another installation of both will do.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

@@ -35,6 +35,14 @@ enum class Show { kFigures, kCharacters };
 enum class Rest { kKeep, kTPose };
 
 /// What is asked of a run.
+/// What messages call the fields of a request: a program puts its own options here.
+struct RequestWords {
+  std::string frames = "Request::frames";
+  std::string template_at = "Request::template_at";
+  std::string show = "Request::show";
+  std::string rest = "Request::rest";
+};
+
 struct Request {
   /// Figure a and figure b: a path, or bytes with a name.
   std::array<io::ClipOptions, 2> clip;
@@ -52,6 +60,7 @@ struct Request {
   /// Whether report.html is made (a few MB).
   bool page = true;
   Rest rest = Rest::kKeep;
+  RequestWords words = {};
 };
 
 /// How a run ended.

@@ -35,7 +35,7 @@ WrittenRig WriteRig(const Job& job, const solver::RetargetResult& result, int f,
                           TPoseFrame(clip.file.motion.rig, *clip.binding,
                                      result.solved[f].frames.front().root_position));
   }
-  api::WrittenRig out;
+  WrittenRig out;
   out.files =
       io::FormatClipFile(clip.file, written, report::kFigure[f], clip.binding->stature_ratio());
   for (int n = 0; n < job.input.body[f].num_nodes(); ++n) {

@@ -76,6 +76,8 @@ Settings SettingsOf(const SettingsOptions& options) {
 
 Request RequestOf(const RetargetOptions& options) {
   Request request;
+  request.words = {
+      .frames = "--frames", .template_at = "--template-at", .show = "--show", .rest = "--rest"};
   request.clip = options.clip;
   request.template_path = options.template_path;
   request.settings = SettingsOf({options.config_path, options.set});

@@ -11,6 +11,7 @@
 
 #include "io/recognition/joint_profiles.h"
 #include "io/recognition/recognise.h"
+#include "tests/io/recognition/named_parts.h"
 #include "tests/rig_figure.h"
 #include "tests/test_data.h"
 
@@ -302,23 +303,11 @@ void ExpectMap(const RigFigure& figure, const JointNames& names, const Rename& r
     }
   };
   const JointMap& map = facts.map;
-  expect("root", map.root);
-  expect("head", map.head);
-  expect("neck", map.neck.empty() ? -1 : map.neck.front());
+  VisitNamedParts(map, expect);
   for (size_t n = 0; n < map.spine.size(); ++n) {
     expect("spine" + std::to_string(n), map.spine[n]);
   }
   EXPECT_FALSE(names.contains("spine" + std::to_string(map.spine.size())));
-  for (const auto& [prefix, side] : {std::pair("left_", &map.left), {"right_", &map.right}}) {
-    const std::string p = prefix;
-    expect(p + "clavicle", side->clavicle);
-    expect(p + "shoulder", side->shoulder);
-    expect(p + "elbow", side->elbow);
-    expect(p + "wrist", side->wrist);
-    expect(p + "hip", side->hip);
-    expect(p + "knee", side->knee);
-    expect(p + "ankle", side->ankle);
-  }
 }
 
 class ConventionTest : public testing::Test {

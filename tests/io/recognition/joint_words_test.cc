@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "io/recognition/recognise.h"
+#include "tests/io/recognition/named_parts.h"
 #include "tests/rig_figure.h"
 
 namespace retarget::io {
@@ -49,20 +50,9 @@ void ExpectNames(const JointNames& names, const RigMotion& motion, const RigFact
         << joint;
   };
   const JointMap& map = facts.map;
-  expect("root", map.root);
-  expect("head", map.head);
-  expect("neck", map.neck.empty() ? -1 : map.neck.front());
-  for (const auto& [prefix, side] : {std::pair("left_", &map.left), {"right_", &map.right}}) {
-    const std::string p = prefix;
-    expect(p + "clavicle", side->clavicle);
-    expect(p + "shoulder", side->shoulder);
-    expect(p + "elbow", side->elbow);
-    expect(p + "wrist", side->wrist);
-    expect(p + "hip", side->hip);
-    expect(p + "knee", side->knee);
-    expect(p + "ankle", side->ankle);
-    expect(p + "toe", side->toe);
-  }
+  VisitNamedParts(map, expect);
+  expect("left_toe", map.left.toe);
+  expect("right_toe", map.right.toe);
 }
 
 TEST(JointWords, ReadsSideAndPartInAnyOrderAndSpelling) {
