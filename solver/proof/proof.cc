@@ -253,8 +253,10 @@ void Prover::Finish() {
       s.bound = std::max(s.bound, interval.bound[k]);
       interval.bound[k] = turned(s, interval.bound[k]);
     }
-    s.value = turned(s, s.value);
-    s.bound = turned(s, s.bound);
+    // A statement about nothing, such as planted feet where none is planted.
+    const bool none = s.value == kNothing && s.kind != RequirementKind::kPassThroughs;
+    s.value = none ? kNothingMeasured : turned(s, s.value);
+    s.bound = none ? kNothingMeasured : turned(s, s.bound);
     if (const auto worst = worst_.find(k); worst != worst_.end()) {
       s.limbs = LimbsOf(task_, worst->second);
     }

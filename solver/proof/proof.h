@@ -31,7 +31,8 @@ struct Statement {
   int item = -1;    // tag or hold; -1: it is about neither
   int figure = -1;  // 0 or 1; -1: about both
   double limit = 0;
-  double value = 0;  // worst that was met at an instant looked at; of pass-throughs the count
+  double value = 0;  // worst that was met at an instant looked at; of pass-throughs the count; NaN:
+                     // there was nothing to look at
   double bound = 0;  // proved for all t: s GLI is nowhere below it, the others nowhere above
   bool proved = true;
   int frame = -1;                    // key at or before the instant of `value`

@@ -87,7 +87,7 @@ Json StatementsJson(const solver::Proof& proof) {
     one["limit"] = s.limit;
     one["proved"] = s.proved;
     one["bound"] = s.proved ? NumberOrNull(s.bound) : Json(nullptr);
-    one["value"] = s.value;
+    one["value"] = NumberOrNull(s.value);
     out.push_back(one);
   }
   return out;

@@ -2,6 +2,8 @@
 // template.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "io/template_file.h"
 #include "tools/cli/commands.h"
 #include "tools/proof/foreign_scene.h"
@@ -31,9 +33,12 @@ proof::ForeignScene SceneOf(const VerifySceneOptions& options, const TemplatePos
 // "Tag 1 ... 0.823, at least 0.811 for all t, required > 0.5".
 std::string StatementLine(const solver::Statement& s) {
   const bool tangle = s.kind == solver::RequirementKind::kTangle;
-  const std::string bound = s.proved ? fmt::format("{:.4g}", s.bound) : "not proved";
-  return fmt::format("{:<24}{:>12.4g}{:>14}{:>4}{:>10.4g} {}\n", proof::NameOf(s), s.value, bound,
-                     tangle ? ">" : "<=", s.limit, report::UnitOf(s.kind));
+  const auto shown = [](double value) {
+    return std::isnan(value) ? std::string("none") : fmt::format("{:.4g}", value);
+  };
+  return fmt::format("{:<24}{:>12}{:>14}{:>4}{:>10.4g} {}\n", proof::NameOf(s), shown(s.value),
+                     s.proved ? shown(s.bound) : "not proved", tangle ? ">" : "<=", s.limit,
+                     report::UnitOf(s.kind));
 }
 
 }  // namespace
