@@ -65,12 +65,14 @@ std::string FindingSentence(const solver::Proof& proof, const solver::Finding& f
 std::string ProofSentence(const solver::Proof& proof, const solver::MetricsContext& subject) {
   const std::string work = fmt::format("{} intervals, {} stretches, halved {} times at most",
                                        proof.intervals.size(), proof.evaluations, proof.depth);
-  if (proof.proved())
-    return fmt::format("proved for all t: {} ({})",
-                       subject.tangles.empty()
-                           ? "nothing passes through, every limit is kept"
-                           : "no tag is lost, nothing passes through, every limit is kept",
-                       work);
+  if (proof.proved()) {
+    // What is proved, and no more: other requirements are defined on frames (docs/proof.md).
+    return fmt::format(
+        "proved for all t: {}nothing passes through; overlap, holds, planted feet, floor and "
+        "lengths "
+        "keep their limits ({})",
+        subject.tangles.empty() ? "" : "no tag is lost, ", work);
+  }
   std::string out = "not proved: " + FindingSentence(proof, proof.findings[0], subject);
   if (proof.findings.size() > 1) out += fmt::format(" (the first of {})", proof.findings.size());
   return out;
