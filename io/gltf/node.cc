@@ -74,4 +74,11 @@ std::vector<Matrix4d> InverseBindMatrices(const tinygltf::Model& model, int skin
   return out;
 }
 
+Eigen::Matrix4d MatrixOf(const GltfTransform& t) {
+  Eigen::Matrix4d m = Matrix4d::Identity();
+  m.topLeftCorner<3, 3>() = t.rotation.toRotationMatrix() * t.scale.asDiagonal();
+  m.topRightCorner<3, 1>() = t.translation;
+  return m;
+}
+
 }  // namespace retarget::io

@@ -23,4 +23,7 @@ GltfTransform TransformOf(const tinygltf::Model& model, int node, const std::str
 std::vector<Eigen::Matrix4d> InverseBindMatrices(const tinygltf::Model& model, int skin,
                                                  GltfAccessors* accessors, const std::string& name);
 
+// The matrix of a local transform, column vectors.
+Eigen::Matrix4d MatrixOf(const GltfTransform& t);
+
 }  // namespace retarget::io

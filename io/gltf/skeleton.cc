@@ -24,13 +24,6 @@ bool IsUniform(const Vec3& scale) {
   return (scale.array() - Mean(scale)).abs().maxCoeff() <= kUniform * std::abs(Mean(scale));
 }
 
-Matrix4d MatrixOf(const GltfTransform& t) {
-  Matrix4d m = Matrix4d::Identity();
-  m.topLeftCorner<3, 3>() = t.rotation.toRotationMatrix() * t.scale.asDiagonal();
-  m.topRightCorner<3, 1>() = t.translation;
-  return m;
-}
-
 class SkeletonBuilder {
  public:
   SkeletonBuilder(const LoadedGltf& gltf, const std::vector<int>& skins, const GltfTracks& tracks,

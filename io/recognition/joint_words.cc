@@ -1,3 +1,4 @@
+// Long for its table of words.
 #include "io/recognition/joint_words.h"
 
 #include <algorithm>

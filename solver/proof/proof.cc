@@ -58,12 +58,10 @@ class Prover {
     std::vector<int> open_pairs;  // of them, pairs that may still meet
   };
 
-  double LengthOfInterval() const {
-    const std::vector<double>& t = task_.motion.key_times;
-    return key_ + 1 < task_.motion.num_keys() ? t[key_ + 1] - t[key_] : 0;
-  }
   double TimeAt(double share) const {
-    return task_.motion.key_times[key_] + share * LengthOfInterval();
+    const std::vector<double>& t = task_.motion.key_times;
+    const double length = key_ + 1 < task_.motion.num_keys() ? t[key_ + 1] - t[key_] : 0;
+    return t[key_] + share * length;
   }
 
   void CertifyInterval() {
