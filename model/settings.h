@@ -80,6 +80,14 @@ struct Requirements {
   double hold_m = 0.02;
   double segment_length_percent = 0.5;  // largest change of a segment as it is written
   double write_back_m = 0.005;          // of the written rig from the scene
+  // What no result may ask of a person, whatever the template (group `plausible`).
+  struct Plausible {
+    double pose_error_m = 0.25;  // mean over the nodes of no tagged path, of any frame
+    double trunk_tilt_deg = 45;
+    double floating_m = 0.05;
+    double joint_limit_deg = 10;  // beyond a joint's range
+    double jerk_ratio = 4;
+  } plausible;
 };
 
 struct SolveSettings {
@@ -220,6 +228,16 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
         "largest change of a segment's length", 0, 100);
   visit("requirements.write_back_m", r.write_back_m, "m",
         "largest distance of the written rig's joints to the scene's", 0, 1);
+  auto& p = r.plausible;
+  visit("plausible.pose_error_m", p.pose_error_m, "m",
+        "of any frame from its clip, mean over the nodes of no tagged path", 0, 10);
+  visit("plausible.trunk_tilt_deg", p.trunk_tilt_deg, "deg",
+        "of the trunk from its clip, of a figure that is not carried", 0, 180);
+  visit("plausible.floating_m", p.floating_m, "m",
+        "over the floor, or over its clip, of a figure that is not carried", 0, 10);
+  visit("plausible.joint_limit_deg", p.joint_limit_deg, "deg",
+        "beyond the end of a joint's range, or its clip's own value", 0, 180);
+  visit("plausible.jerk_ratio", p.jerk_ratio, "", "mean jerk, to that of its own clip", 0, kMax);
   auto& v = s.solve;
   visit("solve.backend", v.backend, "", "linear algebra of the clip's solve", 0, 0);
   visit("solve.start", v.start, "", "initial guess; best: solve from both, keep the better", 0, 0);

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "model/body/joint_limit.h"
 #include "model/body/travel.h"
 #include "solver/attempts.h"
 #include "solver/problem/root_targets.h"
@@ -31,6 +32,22 @@ void WarnOfWeakTags(RetargetResult* result) {
   if (result->scene.tangles.empty()) {
     result->warnings.push_back(
         "the template has no tangles: only holds and contacts tie the figures");
+  }
+}
+
+// Joints that the template itself bends further than people can: the solve follows it there.
+void WarnOfLimits(const TemplatePosture& posture, RetargetResult* result) {
+  constexpr double kWorthAWord = 1 * kDegree;
+  for (int f = 0; f < 2; ++f) {
+    for (int l = 1; l < posture.body[f].num_links(); ++l) {
+      const double beyond = FurthestBeyondLimit(posture.body[f], l, posture.pose[f]);
+      if (beyond < kWorthAWord) continue;
+      char sentence[160];
+      std::snprintf(sentence, sizeof sentence,
+                    "the template bends %c's %s %.0f degrees beyond its range of motion",
+                    f == 0 ? 'a' : 'b', posture.body[f].links[l].name.c_str(), beyond / kDegree);
+      result->warnings.emplace_back(sentence);
+    }
   }
 }
 
@@ -70,6 +87,7 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
   }
   scene.base = EditBase(scene);
   WarnOfWeakTags(&result);
+  WarnOfLimits(input.posture, &result);
   for (int f = 0; f < 2; ++f) WarnOfFeet(f, settings, &result);
   return result;
 }

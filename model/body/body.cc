@@ -89,50 +89,6 @@ void AddLegNodes(const std::string& side, const BodyMeasures::Side& m, BodyBuild
   b->AddNode(side + "_toe", n, link("_ankle"), Vec3(0, 0, m.ankle_toe));
 }
 
-JointLimit SwingTwist(const Vec3& axis, const Vec3& centre, double swing_deg, double twist_deg) {
-  JointLimit limit;
-  limit.axis = axis;
-  limit.swing_centre = centre.normalized();
-  limit.swing_max = swing_deg * kDegree;
-  limit.twist_min = -twist_deg * kDegree;
-  limit.twist_max = twist_deg * kDegree;
-  return limit;
-}
-
-JointLimit Hinge(const Vec3& axis, const Vec3& hinge, double bend_deg, double play_deg,
-                 double twist_deg) {
-  JointLimit limit = SwingTwist(axis, axis, 180, twist_deg);
-  limit.hinge_axis = hinge;
-  limit.bend_min = -5 * kDegree;
-  limit.bend_max = bend_deg * kDegree;
-  limit.hinge_play = play_deg * kDegree;
-  return limit;
-}
-
-void SetLimits(Body* body) {
-  const auto set = [&](const std::string& name, const JointLimit& limit) {
-    const int l = body->FindLink(name);
-    assert(l >= 0);
-    body->links[l].limit = limit;
-  };
-  const Vec3 up = Vec3::UnitY(), down = -Vec3::UnitY(), ahead = Vec3::UnitZ();
-  set("waist", SwingTwist(up, up, 60, 45));
-  set("chest", SwingTwist(up, up, 60, 45));
-  set("neck", SwingTwist(up, up, 65, 75));
-  set("head", SwingTwist(up, up, 65, 75));
-  for (const double x : {1.0, -1.0}) {
-    const std::string side = x > 0 ? "left" : "right";
-    const Vec3 out(x, 0, 0);
-    set(side + "_clavicle", SwingTwist(out, out, 45, 45));
-    set(side + "_shoulder", SwingTwist(out, Vec3(0.6 * x, -0.3, 0.6), 125, 120));
-    set(side + "_elbow", Hinge(out, Vec3(0, -x, 0), 158, 40, 120));
-    set(side + "_wrist", SwingTwist(out, out, 90, 100));
-    set(side + "_hip", SwingTwist(down, Vec3(0.15 * x, -0.8, 0.6), 105, 70));
-    set(side + "_knee", Hinge(down, Vec3(1, 0, 0), 160, 20, 45));
-    set(side + "_ankle", SwingTwist(ahead, Vec3(0, -0.3, 1), 70, 50));
-  }
-}
-
 }  // namespace
 
 int Body::FindLink(const std::string& name) const {
@@ -231,7 +187,8 @@ Body StandardBody(const BodyMeasures& m) {
     node.radius = row.radius * k;
     node.mass = row.mass_share * kTableMass * k * k * k;
   }
-  SetLimits(&body);
+  for (int l = 1; l < body.num_links(); ++l)
+    body.links[l].limit = StandardLimit(body.links[l].name);
   return body;
 }
 

@@ -13,28 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "model/body/joint_limit.h"
 #include "model/geometry/types.h"
 
 namespace retarget {
-
-// Soft limits of a joint rotation R (child in parent), by swing and twist about `axis`, the
-// direction of the link's bone in the rest pose: R = swing * twist.
-//  - twist within [twist_min, twist_max] rad;
-//  - the bone's direction R axis, in the parent, no further than swing_max rad from swing_centre;
-//  - a hinge (`hinge_axis`, in the parent, not zero) bends only between bend_min and bend_max rad
-//    about that axis and leaves the plane of bending by hinge_play rad at most (elbows and knees
-//    bend one way).
-// Ranges: American Academy of Orthopaedic Surgeons, "Joint Motion", 1965, widened by about a fifth,
-// since captured joints split a turn differently from anatomy.
-struct JointLimit {
-  Vec3 axis = Vec3::UnitY();
-  double twist_min = -kPi, twist_max = kPi;
-  Vec3 swing_centre = Vec3::UnitY();  // unit direction
-  double swing_max = kPi;
-  Vec3 hinge_axis = Vec3::Zero();
-  double bend_min = -kPi, bend_max = kPi;
-  double hinge_play = kPi;
-};
 
 struct Link {
   std::string name;            // "root", "waist", "left_elbow", ...

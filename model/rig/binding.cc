@@ -242,9 +242,8 @@ void RigBinding::LimitWaist(const std::vector<World>& frames) {
   const double cosine = (r * r + p * p - longest * longest) / (2 * r * p);
   JointLimit& limit = body_.links[kWaist].limit;
   const double swing = std::acos(std::clamp(cosine, -1.0, 1.0));
-  if (swing >= limit.swing_max) return;
-  limit.swing_max = swing;
-  limit.swing_centre = pivot / p;
+  limit.reach = swing;
+  limit.reach_centre = pivot / p;
 }
 
 RigBinding::RigBinding(const RigMotion& motion, const RigFacts& facts, int chest_bone,

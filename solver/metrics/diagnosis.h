@@ -46,6 +46,7 @@ Opposition OppositionTo(const Problem& problem, const Unknowns& unknowns,
 enum class Cause {
   kPassThrough,     // no term sees limbs that change sides
   kNoTerm,          // no term works for it
+  kUnlike,          // the clip is too unlike what the template asks for
   kLowTarget,       // the tag does not aim so high: tangle.margin
   kLooseTemplate,   // the template itself shows no more
   kNoWeight,        // the weight of its term is 0

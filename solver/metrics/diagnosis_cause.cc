@@ -54,6 +54,10 @@ class CauseFinder {
     diagnosis_.pass_throughs = static_cast<int>(c_.metrics.pass_throughs.size());
     if (check_.kind == RequirementKind::kPassThroughs) {
       Set(Cause::kPassThrough);
+    } else if (check_.kind == RequirementKind::kPoseError ||
+               check_.kind == RequirementKind::kTrunkTilt ||
+               check_.kind == RequirementKind::kFloating) {
+      Set(Cause::kUnlike);
     } else if (term_.empty()) {
       Set(Cause::kNoTerm);
     } else if (check_.kind == RequirementKind::kTangle && Tag().target <= check_.limit) {

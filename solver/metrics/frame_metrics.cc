@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/body/joint_limit.h"
 #include "model/body/path.h"
 #include "model/body/shape.h"
 #include "model/geometry/capsule.h"
@@ -135,6 +136,39 @@ double JointTurn(const Body& body, const std::vector<Quat>& p, const std::vector
   return LogSo3(local_q.conjugate() * local_p).norm() / kDegree;
 }
 
+// Rotations of the body's links in their parents, by those of the links that carry the nodes.
+Pose PoseOf(const Body& body, const std::vector<int>& node_of_link, const std::vector<Quat>& r) {
+  Pose pose;
+  pose.rotation.assign(body.links.size(), Quat::Identity());
+  for (int l = 1; l < body.num_links(); ++l) {
+    const int n = node_of_link[l], parent = node_of_link[body.links[l].parent];
+    if (n >= 0 && parent >= 0) pose.rotation[l] = r[parent].conjugate() * r[n];
+  }
+  return pose;
+}
+
+BeyondLimit WorstJoint(const Body& body, const std::vector<int>& node_of_link, const Pose& now,
+                       const Pose& source) {
+  BeyondLimit worst;
+  for (int l = 1; l < body.num_links(); ++l) {
+    if (node_of_link[l] < 0) continue;
+    const std::vector<LimitExcess> is = LimitExcesses(body, l, now);
+    const std::vector<LimitExcess> was = LimitExcesses(body, l, source);
+    for (size_t k = 0; k < is.size(); ++k) {
+      const double deg = (is[k].beyond - std::max(0.0, was[k].beyond)) / kDegree;
+      if (deg > worst.deg) worst = {deg, node_of_link[l]};
+    }
+  }
+  return worst;
+}
+
+// A node that each link carries; -1 where there is none.
+std::vector<int> NodesOfLinks(const Body& body) {
+  std::vector<int> nodes(body.links.size(), -1);
+  for (int n = body.num_nodes() - 1; n >= 0; --n) nodes[body.nodes[n].link] = n;
+  return nodes;
+}
+
 }  // namespace
 
 std::vector<int> TrackedJoints(const Body& body) {
@@ -160,9 +194,11 @@ FrameMetrics MeasureFrames(const MetricsContext& subject, const MotionView& moti
   out.at.resize(n);
   out.between.resize(n > 0 ? n - 1 : 0);
   out.node.resize(n);
-  std::array<std::vector<int>, 2> joints;
+  std::array<std::vector<int>, 2> joints, of_links;
   for (int f = 0; f < 2; ++f) {
     joints[f] = TrackedJoints(subject.body[f]);
+    of_links[f] = NodesOfLinks(subject.body[f]);
+    out.beyond_limit[f].assign(n, {});
     out.tracking_deg[f].assign(joints[f].size(), std::vector<double>(n, 0));
     out.foot_speed[f].assign(n, 0);
   }
@@ -174,6 +210,10 @@ FrameMetrics MeasureFrames(const MetricsContext& subject, const MotionView& moti
     out.node[t] = now.node;
     if (t < source.num_frames) source.at(t, &other);
     for (int f = 0; f < 2 && t < source.num_frames; ++f) {
+      const Body& body = subject.body[f];
+      out.beyond_limit[f][t] =
+          WorstJoint(body, of_links[f], PoseOf(body, of_links[f], now.rotation[f]),
+                     PoseOf(body, of_links[f], other.rotation[f]));
       for (size_t j = 0; j < joints[f].size(); ++j) {
         out.tracking_deg[f][j][t] =
             JointTurn(subject.body[f], now.rotation[f], other.rotation[f], joints[f][j]);

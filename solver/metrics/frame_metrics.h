@@ -36,6 +36,13 @@ struct PassThrough {
   int node_a = 0, node_b = 0;
 };
 
+// How far the joint that ends at a node turns beyond its limits, or beyond the source where that
+// goes further (deg); 0: within.
+struct BeyondLimit {
+  double deg = 0;
+  int node = 0;
+};
+
 struct FrameMetrics {
   double fps = 30;
   std::vector<InstantMetrics> at;       // the frames
@@ -46,6 +53,7 @@ struct FrameMetrics {
   std::array<std::vector<double>, 2> foot_speed;
   // Turn of each of TrackedJoints against the source (deg). [joints][frames]
   std::array<std::vector<std::vector<double>>, 2> tracking_deg;
+  std::array<std::vector<BeyondLimit>, 2> beyond_limit;  // the worst joint of each frame
   std::vector<NodePositions> node;
 
   int num_frames() const { return static_cast<int>(at.size()); }

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "model/body/path.h"
 #include "model/geometry/so3.h"
 
 namespace retarget::solver {
@@ -132,38 +131,26 @@ class Measurement {
 
   // Node distance to the source after taking out the root's place and the best-fitting yaw.
   void MeasureEdit(int f) {
-    const Body& body = subject_.body[f];
-    std::vector<char> tagged(body.nodes.size(), 0);
-    for (const TangleTarget& held : subject_.tangles) {
-      const Path& path = f == 0 ? held.tag.tangle.a : held.tag.tangle.b;
-      for (const int n : NodesOn(body, path)) tagged[n] = 1;
-    }
+    const std::vector<int> untagged = UntaggedNodes(subject_, f);
     FigureMetrics& m = out_.figure[f];
-    m.path_m.assign(body.nodes.size(), 0);
+    m.path_m.assign(subject_.body[f].nodes.size(), 0);
     double sum = 0;
     int count = 0;
     const size_t frames = std::min(frames_.size(), source_frames_.size());
     for (size_t t = 0; t < frames; ++t) {
       const std::vector<Vec3>&p = frames_[t][f], &q = source_frames_[t][f];
-      double c = 0, s = 0;
-      for (size_t n = 1; n < p.size(); ++n) {
-        const Vec3 u = q[n] - q[0], v = p[n] - p[0];
-        c += u.x() * v.x() + u.z() * v.z();
-        s += u.z() * v.x() - u.x() * v.z();
+      const Quat yaw = BestYaw(p, q);
+      for (const int n : untagged) {
+        sum += ((p[n] - p[0]) - yaw * (q[n] - q[0])).norm();
+        ++count;
       }
-      const Quat yaw = YawRotation(std::atan2(s, c));
-      for (size_t n = 1; n < p.size(); ++n) {
-        if (!tagged[n]) {
-          sum += ((p[n] - p[0]) - yaw * (q[n] - q[0])).norm();
-          ++count;
-        }
-        if (t > 0) {
-          m.path_m[n] += ((p[n] - p[0]) - (frames_[t - 1][f][n] - frames_[t - 1][f][0])).norm();
-        }
+      for (size_t n = 1; n < p.size() && t > 0; ++n) {
+        m.path_m[n] += ((p[n] - p[0]) - (frames_[t - 1][f][n] - frames_[t - 1][f][0])).norm();
       }
     }
     if (count > 0) m.pose_error_cm = 100 * sum / count;
     m.joint_edit_deg = JointEdit(f, frames);
+    m.plausible = MeasurePlausibility(subject_, f, series_, source_frames_);
   }
 
   // Mean turn of the joints against the source (deg).
@@ -174,20 +161,6 @@ class Measurement {
     }
     const size_t count = frames * series_.tracking_deg[f].size();
     return count > 0 ? sum / static_cast<double>(count) : kNothingMeasured;
-  }
-
-  static double MeanJerk(const std::vector<NodePositions>& frames, int f, double fps) {
-    double sum = 0;
-    int count = 0;
-    for (size_t t = 0; t + 3 < frames.size(); ++t) {
-      for (size_t n = 0; n < frames[t][f].size(); ++n) {
-        sum += (frames[t + 3][f][n] - 3 * frames[t + 2][f][n] + 3 * frames[t + 1][f][n] -
-                frames[t][f][n])
-                   .norm();
-        ++count;
-      }
-    }
-    return count > 0 ? sum / count * fps * fps * fps : kNothingMeasured;
   }
 
   void MeasureJerk() {

@@ -8,6 +8,7 @@
 
 #include "solver/metrics/foot_metrics.h"
 #include "solver/metrics/frame_metrics.h"
+#include "solver/metrics/plausibility.h"
 
 namespace retarget::solver {
 
@@ -39,7 +40,8 @@ struct FigureMetrics {
   double jerk_ratio_own = kNothingMeasured;     // to its own source, where that has any
   double jerk_ratio_larger = kNothingMeasured;  // to the larger of the two sources
   double length_error_percent = 0;              // of segments, neck-shoulder exempt
-  std::vector<double> path_m;                   // per node, relative to the root
+  Plausibility plausible;
+  std::vector<double> path_m;  // per node, relative to the root
 };
 
 struct Metrics {

@@ -37,8 +37,9 @@ std::vector<NodePositions> NodesOf(const MotionView& motion) {
 }
 
 MetricsContext MetricsContextOf(const Scene& scene) {
-  MetricsContext subject{scene.body, {}, scene.tangles, scene.holds, scene.contacts};
+  MetricsContext subject{scene.body, {}, scene.tangles, scene.holds, scene.contacts, {}};
   for (int f = 0; f < 2; ++f) {
+    subject.carried[f] = scene.posture.supports[f].empty();
     subject.length[f].push_back(0);
     for (int n = 1; n < scene.body[f].num_nodes(); ++n) {
       subject.length[f].push_back(scene.body[f].SegmentLength(n));

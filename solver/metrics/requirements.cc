@@ -19,6 +19,7 @@ class Requiring {
     CheckBetweenBodies();
     for (int f = 0; f < 2; ++f) CheckFigure(f);
     for (size_t k = 0; k < m_.hold_m.size(); ++k) CheckHold(static_cast<int>(k));
+    for (int f = 0; f < 2; ++f) CheckPlausible(f);
     return std::move(checks_);
   }
 
@@ -117,6 +118,22 @@ class Requiring {
     if (worst) checks_.back().frame = worst->frame;
   }
 
+  void CheckPlausible(int f) {
+    const Plausibility& p = m_.figure[f].plausible;
+    const Requirements::Plausible& r = r_.plausible;
+    const auto check = [&](Kind kind, const WorstAt& worst, double limit) {
+      RequirementCheck& c = AtMost(kind, worst.value, limit);
+      c.figure = f;
+      c.frame = worst.frame;
+      if (c.judged()) c.limbs = {{f, worst.node}};
+    };
+    check(Kind::kPoseError, p.pose_error_m, r.pose_error_m);
+    check(Kind::kTrunkTilt, p.trunk_tilt_deg, r.trunk_tilt_deg);
+    check(Kind::kFloating, p.floating_m, r.floating_m);
+    check(Kind::kJointLimit, p.joint_limit_deg, r.joint_limit_deg);
+    check(Kind::kJerk, p.jerk_ratio, r.jerk_ratio);
+  }
+
   void CheckHold(int k) {
     RequirementCheck& check = AtMost(Kind::kHold, m_.hold_m[k], r_.hold_m);
     check.item = k;
@@ -151,6 +168,13 @@ std::string TermOf(RequirementKind kind) {
     case Kind::kFootTravel:
     case Kind::kFootAcceleration:
       return "foot_swing";
+    case Kind::kJointLimit:
+      return "joint_limit";
+    case Kind::kJerk:
+      return "smoothness";
+    case Kind::kPoseError:
+    case Kind::kTrunkTilt:
+    case Kind::kFloating:
     case Kind::kPassThroughs:
     case Kind::kSegmentLength:
     case Kind::kWriteBack:

@@ -25,7 +25,13 @@ enum class RequirementKind {
   kFloor,               // m, of a figure
   kHold,                // m, of a hold
   kSegmentLength,       // %, of a figure as it is written
-  kWriteBack            // m, of a figure's own rig as it is written
+  kWriteBack,           // m, of a figure's own rig as it is written
+  // What no result may ask of a person (plausible.*), of a figure:
+  kPoseError,   // m, from its clip
+  kTrunkTilt,   // deg, from its clip, of a figure that is not carried
+  kFloating,    // m, likewise
+  kJointLimit,  // deg, beyond a joint's range
+  kJerk         // times its own clip's
 };
 
 // YAML key of the term that works for a requirement; empty where none does.

@@ -20,10 +20,7 @@ constexpr double kReached = 0.01;
 constexpr double kLeastGainOfLead = 0.02;
 constexpr double kLeastLead = kReached;  // m
 constexpr double kLeastGain = 1e-4;      // m of all drags together: less is no progress
-// Elbows and knees of captured clips may bend sideways, as nobody knows their rigs' hinges; here
-// the hinges are the body's own.
-constexpr double kHingePlay = 10 * kDegree;
-constexpr double kLeastSeconds = 1e-3;  // for a solve at the end of the time: one iteration
+constexpr double kLeastSeconds = 1e-3;   // for a solve at the end of the time: one iteration
 // Iterations before the poses are looked at again: few where the led target itself moves on.
 constexpr int kIterationsLed = 3;
 constexpr int kIterationsPerSolve = 20;
@@ -110,12 +107,7 @@ Scene SceneOf(const PoseTask& task) {
   scene.body = task.body;
   scene.holds = task.holds;
   scene.tangles = task.tangles;
-  for (int f = 0; f < 2; ++f) {
-    scene.source[f].frames = {task.before[f]};
-    for (Link& link : scene.body[f].links) {
-      link.limit.hinge_play = std::min(link.limit.hinge_play, kHingePlay);
-    }
-  }
+  for (int f = 0; f < 2; ++f) scene.source[f].frames = {task.before[f]};
   return scene;
 }
 

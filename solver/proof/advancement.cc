@@ -198,6 +198,11 @@ class Advancer {
       case Kind::kPenetrationOver1cm:
       case Kind::kFootTravel:
       case Kind::kFootAcceleration:
+      case Kind::kPoseError:
+      case Kind::kTrunkTilt:
+      case Kind::kFloating:
+      case Kind::kJointLimit:
+      case Kind::kJerk:
       case Kind::kWriteBack:
         break;
     }

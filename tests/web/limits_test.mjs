@@ -1,5 +1,5 @@
 // The pages' reading of joint limits, against rotations made from known angles, and against what
-// the program says of the same rotations (solver/problem/terms/joint_limit.h):
+// the program says of the same rotations (model/body/joint_limit.h):
 //   node limits_test.mjs RETARGET WEB_BUILD
 // Exit code 77 where the program has no studio or the pages' tools are not there.
 import assert from "node:assert/strict";
@@ -143,26 +143,45 @@ test("a bend past half a turn is more bent, not bent backwards", () => {
   }
 });
 
+// The rotation that a quaternion [x, y, z, w] stands for.
+function matrixOf([x, y, z, w]) {
+  const sine = Math.hypot(x, y, z);
+  return sine < 1e-12 ? turn([1, 0, 0], 0) : turn(unit([x, y, z]), (2 * Math.atan2(sine, w)) / kDegree);
+}
+
 test("a swing and a twist are those that made the rotation", () => {
   const cones = limitsOf("swing_twist");
   assert.equal(cones.length, 14);
   let checked = 0;
   for (const [name, limits] of cones) {
-    const centre = unit(limits.swing_centre);
+    const middle = matrixOf(limits.middle);
+    const centre = times(middle, limits.axis);
+    const about = unit(limits.swing_axis);
+    const across = cross(centre, about);
     for (let k = 0; k < 100; ++k) {
       // Directions come rounded to 1e-6, which an arc cosine near 0 or half a turn magnifies.
-      const [away, twist] = [random(5, 170), random(-170, 170)];
-      const across = unit(cross(centre, randomDirection()));
-      const direction = times(turn(across, away), centre);
-      if (dot(direction, limits.axis) < -0.95) continue; // near half a turn no twist is defined
-      const readings = readingsOf(limits, direction, twist);
-      assert.deepEqual([...readings.keys()], ["swing", "twist"]);
-      assertLine(readings.get("swing"), away, `${name} swing`);
-      assertLine(readings.get("twist"), twist, `${name} twist`);
+      const [away, way, twist] = [random(5, 165), random(0, 360), random(-170, 170)];
+      const [u, v] = [Math.cos(way * kDegree), Math.sin(way * kDegree)];
+      const swung = turn(unit(about.map((x, c) => u * x + v * across[c])), away);
+      const twisted = turn(unit(centre), twist);
+      const made = limits.twist_with_parent ? product(twisted, swung) : product(swung, twisted);
+      const forearm = { axis: [1, 0, 0], rotation_vector: [30, 0, 0] };
+      const readings = readLimits(limits, rotationVector(product(made, middle)), forearm);
+      const wrist = ["swing", "twist", "twist with forearm"];
+      const names = limits.twist_with_parent ? wrist : ["swing", "twist"];
+      assert.deepEqual(
+        readings.map((r) => r.name),
+        names,
+      );
+      const most = [u < 0 ? -limits.swing[0] : limits.swing[1], v < 0 ? -limits.side[0] : limits.side[1]];
+      assertLine(readings[0], away, `${name} swing`);
+      near(readings[0].max, 1 / Math.hypot(u / most[0], v / most[1]), `${name} reach`);
+      assertLine(readings[1], twist, `${name} twist`);
+      if (readings[2]) assertLine(readings[2], twist + 30, `${name} twist of both`);
       ++checked;
     }
   }
-  assert.ok(checked > 1200, `${checked} checked`);
+  assert.equal(checked, 1400);
 });
 
 test("joints without limits have no readings", () => {
@@ -202,8 +221,11 @@ test("as far beyond as the program says", async () => {
     const said = state.queries.beyond_limits_deg;
     for (const [name, vector] of turns) {
       const [figure, joint] = name.split("/");
-      const { limits } = body[figure].links.find((link) => link.name === joint);
-      const beyond = readLimits(limits, vector).map(({ name: kind, value, min, max }) => ({
+      const { limits, parent } = body[figure].links.find((link) => link.name === joint);
+      const before = body[figure].links[parent];
+      const turned = turns.get(`${figure}/${before.name}`);
+      const forearm = turned && { axis: before.limits.axis, rotation_vector: turned };
+      const beyond = readLimits(limits, vector, forearm).map(({ name: kind, value, min, max }) => ({
         kind,
         by: Math.max(min - value, value - max),
       }));
@@ -217,7 +239,7 @@ test("as far beyond as the program says", async () => {
       }
     }
   }
-  for (const kind of ["bend", "sideways", "swing", "twist", "within"]) {
+  for (const kind of ["bend", "sideways", "swing", "twist", "twist with forearm", "within"]) {
     assert.ok(worst.get(kind) >= 5, `${kind}: ${worst.get(kind)} times`);
   }
 });

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/body/joint_limit.h"
 #include "solver/start/weak_tags.h"
 
 namespace retarget::api {
@@ -33,6 +34,20 @@ std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::
   return warnings;
 }
 
+std::vector<std::string> LimitWarnings(const TemplatePosture& posture) {
+  std::vector<std::string> warnings;
+  for (int f = 0; f < 2; ++f) {
+    const Body& body = posture.body[f];
+    for (int l = 1; l < body.num_links(); ++l) {
+      const double beyond = FurthestBeyondLimit(body, l, posture.pose[f]) / kDegree;
+      if (beyond < kBeyondLimitDeg) continue;
+      warnings.push_back(fmt::format("{}'s {} is bent {:.0f} degrees beyond its range of motion",
+                                     report::kFigure[f], body.links[l].name, beyond));
+    }
+  }
+  return warnings;
+}
+
 TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& settings) {
   TemplateCheck check;
   check.tangles = solver::FindTemplateTangles(posture, settings.tangle);
@@ -46,6 +61,8 @@ TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& sett
   check.metrics = solver::Measure(subject, view, view);
   check.checks = solver::CheckRequirements(subject, check.metrics, settings.requirements);
   check.warnings = TagWarnings(posture, check.tangles.tags);
+  const std::vector<std::string> limits = LimitWarnings(posture);
+  check.warnings.insert(check.warnings.end(), limits.begin(), limits.end());
   return check;
 }
 

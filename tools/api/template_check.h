@@ -23,6 +23,10 @@ TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& sett
 // What is to be said of weak tags.
 std::vector<std::string> TagWarnings(const TemplatePosture& posture, const std::vector<Tag>& tags);
 
+// What is to be said of joints that a posture bends this much further than people can (degrees).
+inline constexpr double kBeyondLimitDeg = 1;
+std::vector<std::string> LimitWarnings(const TemplatePosture& posture);
+
 report::Json TangleJson(const Body& a, const Body& b, const Tangle& tangle);
 
 }  // namespace retarget::api

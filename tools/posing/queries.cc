@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/body/joint_limit.h"
 #include "model/body/path.h"
 #include "model/body/shape.h"
 #include "model/geometry/capsule.h"
-#include "solver/problem/terms/joint_limit.h"
 #include "solver/start/weak_tags.h"
 #include "tools/api/template_check.h"
 #include "tools/posing/state.h"
@@ -174,9 +174,8 @@ MatX GliTableOf(const TemplatePosture& posture) {
 
 std::vector<double> BeyondLimits(const TemplatePosture& posture, int figure, int link) {
   std::vector<double> beyond;
-  for (const solver::LimitViolation& v : solver::LimitViolations(
-           posture.body[figure].links[link].limit, posture.pose[figure].rotation[link])) {
-    beyond.push_back(v.beyond);
+  for (const LimitExcess& e : LimitExcesses(posture.body[figure], link, posture.pose[figure])) {
+    beyond.push_back(e.beyond);
   }
   return beyond;
 }

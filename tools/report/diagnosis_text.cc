@@ -57,6 +57,31 @@ class Sentence {
         return fmt::format("{} goes through {} between frames {} and {}", Limb(0), Limb(1), r.frame,
                            r.frame + 1) +
                (c_.pass_throughs > 1 ? fmt::format(" (the first of {})", c_.pass_throughs) : "");
+      case Kind::kPoseError:
+        return fmt::format(
+            "the pose is {:.0f} cm from its clip at frame {}, {} most, {:.0f} is "
+            "allowed",
+            100 * r.value, r.frame, Limb(0), 100 * r.limit);
+      case Kind::kTrunkTilt:
+        return fmt::format(
+            "the trunk leans {:.0f} degrees from its clip at frame {}, {:.0f} is "
+            "allowed of a figure that is not carried",
+            r.value, r.frame, r.limit);
+      case Kind::kFloating:
+        return fmt::format(
+            "the lowest point, of {}, is {:.1f} cm in the air at frame {}, {:.1f} "
+            "is allowed of a figure that is not carried",
+            Limb(0), 100 * r.value, r.frame, 100 * r.limit);
+      case Kind::kJointLimit:
+        return fmt::format(
+            "the joint before {} bends {:.0f} degrees beyond its range at frame {}, "
+            "{:.0f} is allowed",
+            Limb(0), r.value, r.frame, r.limit);
+      case Kind::kJerk:
+        return fmt::format(
+            "the jerk is {:.1f} times that of its clip, largest in {} at frame {}, "
+            "{:.1f} is allowed",
+            r.value, Limb(0), r.frame, r.limit);
       case Kind::kSegmentLength:
       case Kind::kWriteBack:
         break;
@@ -73,6 +98,10 @@ class Sentence {
                "at another instant (--template-at), or leave the frames out (--frames)";
       case Cause::kNoTerm:
         return "no term works for that";
+      case Cause::kUnlike:
+        return "tangles, holds and contacts ask for it: the clip does not suit the template there; "
+               "begin it at another instant (--start-a, --start-b), lay the template at another "
+               "frame (--template-at), or take a clip that is closer to the template's figure";
       case Cause::kLowTarget:
         return fmt::format("the tag aims for {:.3g}, no more: --set {}={:.2g}", Tag().target,
                            c_.suggestion->setting, c_.suggestion->value);
@@ -223,6 +252,8 @@ const char* CauseName(Cause cause) {
       return "pass_through";
     case Cause::kNoTerm:
       return "no_term";
+    case Cause::kUnlike:
+      return "unlike";
     case Cause::kLowTarget:
       return "low_target";
     case Cause::kLooseTemplate:

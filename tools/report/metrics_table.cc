@@ -62,6 +62,11 @@ void AddFigureRows(int figure, std::vector<MetricRow>* rows) {
   add("pose error", "cm", {}, 1, "pose_error_cm");
   add("joint edit", "deg", {}, 1, "joint_edit_deg");
   add("jerk, to the larger source", "x", {}, 1, "jerk_ratio_larger");
+  add("jerk, to its own source", "x", Kind::kJerk, 1, "jerk_ratio_plausible");
+  add("largest pose error", "cm", Kind::kPoseError, 100, "largest_pose_error_m");
+  add("tilt of the trunk", "deg", Kind::kTrunkTilt, 1, "trunk_tilt_deg");
+  add("floating", "cm", Kind::kFloating, 100, "floating_m");
+  add("beyond a joint's range", "deg", Kind::kJointLimit, 1, "beyond_joint_limit_deg");
 }
 
 bool Misses(const MetricRow& row, double value, double limit) {

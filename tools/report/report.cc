@@ -50,6 +50,11 @@ Json FigureJson(const Body& body, const solver::FigureMetrics& m) {
       {"jerk_m_s3", m.jerk},
       {"jerk_ratio_own", m.jerk_ratio_own},
       {"jerk_ratio_larger", m.jerk_ratio_larger},
+      {"largest_pose_error_m", m.plausible.pose_error_m.value},
+      {"trunk_tilt_deg", m.plausible.trunk_tilt_deg.value},
+      {"floating_m", m.plausible.floating_m.value},
+      {"beyond_joint_limit_deg", m.plausible.joint_limit_deg.value},
+      {"jerk_ratio_plausible", m.plausible.jerk_ratio.value},
       {"length_error_percent", m.length_error_percent},
       {"path_m", path}};
 }

@@ -14,7 +14,8 @@ using Kind = solver::RequirementKind;
 constexpr Kind kKinds[] = {
     Kind::kTangle,    Kind::kPassThroughs,  Kind::kPenetration,      Kind::kPenetrationOver1cm,
     Kind::kFootDrift, Kind::kFootTravel,    Kind::kFootAcceleration, Kind::kFloor,
-    Kind::kHold,      Kind::kSegmentLength, Kind::kWriteBack};
+    Kind::kHold,      Kind::kSegmentLength, Kind::kWriteBack,        Kind::kPoseError,
+    Kind::kTrunkTilt, Kind::kFloating,      Kind::kJointLimit,       Kind::kJerk};
 
 Json OrNull(int number) { return number < 0 ? Json(nullptr) : Json(number); }
 

@@ -34,6 +34,16 @@ const char* WordsOf(Kind kind) {
       return "segment lengths";
     case Kind::kWriteBack:
       return "write-back";
+    case Kind::kPoseError:
+      return "plausible.pose_error";
+    case Kind::kTrunkTilt:
+      return "plausible.trunk_tilt";
+    case Kind::kFloating:
+      return "plausible.floating";
+    case Kind::kJointLimit:
+      return "plausible.joint_limit";
+    case Kind::kJerk:
+      return "plausible.jerk";
   }
   return "";
 }
@@ -64,6 +74,12 @@ const char* KindName(Kind kind) {
       return "segment_length";
     case Kind::kWriteBack:
       return "write_back";
+    case Kind::kPoseError:
+    case Kind::kTrunkTilt:
+    case Kind::kFloating:
+    case Kind::kJointLimit:
+    case Kind::kJerk:
+      return WordsOf(kind);
   }
   return "";
 }
@@ -90,7 +106,14 @@ const char* UnitOf(Kind kind) {
     case Kind::kFloor:
     case Kind::kHold:
     case Kind::kWriteBack:
+    case Kind::kPoseError:
+    case Kind::kFloating:
       return "m";
+    case Kind::kTrunkTilt:
+    case Kind::kJointLimit:
+      return "deg";
+    case Kind::kJerk:
+      return "x";
     case Kind::kFootAcceleration:
       return "m/s^2";
   }
@@ -116,6 +139,11 @@ std::string WorstPlace(const solver::RequirementCheck& check, const std::array<B
       return pair("in");
     case Kind::kFootTravel:
     case Kind::kFootAcceleration:
+    case Kind::kPoseError:
+    case Kind::kTrunkTilt:
+    case Kind::kFloating:
+    case Kind::kJointLimit:
+    case Kind::kJerk:
       return check.limbs.empty() ? frame : fmt::format("{}, {}", frame, node(0));
     case Kind::kFootDrift:
     case Kind::kHold:

@@ -47,6 +47,38 @@ Json NodesJson(const Body& body) {
   return nodes;
 }
 
+// What the rig says of joints beside the body's own ranges of motion.
+Json LimitsJson(const Body& body) {
+  Json out = Json::object();
+  for (const Link& link : body.links) {
+    const JointLimit standard = StandardLimit(link.name);
+    Json own = Json::object();
+    if (link.limit.hinge_axis != standard.hinge_axis) {
+      own["hinge_axis"] = VectorJson(link.limit.hinge_axis);
+    }
+    if (link.limit.reach < standard.reach) {
+      own["reach_deg"] = link.limit.reach / kDegree;
+      own["reach_centre"] = VectorJson(link.limit.reach_centre);
+    }
+    if (!own.empty()) out[link.name] = own;
+  }
+  return out;
+}
+
+// The limits of a body from a report; those from before they were written say nothing of them.
+void SetLimits(const Json& figure, Body* body) {
+  if (!figure.contains("limits")) return;
+  for (Link& link : body->links) {
+    link.limit = StandardLimit(link.name);
+    const auto own = figure.at("limits").find(link.name);
+    if (own == figure.at("limits").end()) continue;
+    if (own->contains("hinge_axis")) link.limit.hinge_axis = VectorFromJson(own->at("hinge_axis"));
+    if (!own->contains("reach_deg")) continue;
+    link.limit.reach = own->at("reach_deg").get<double>() * kDegree;
+    link.limit.reach_centre = VectorFromJson(own->at("reach_centre"));
+  }
+}
+
 // The body's tree, as far as measuring needs it: links have names alone. Reports from before the
 // nodes were written are about the standard body.
 Body BodyFromJson(const Json& figure) {
@@ -68,6 +100,13 @@ Body BodyFromJson(const Json& figure) {
     }
     body.nodes.push_back(node);
   }
+  // A link hangs from the one that carries the parent of its node.
+  for (const Node& node : body.nodes) {
+    Link& link = body.links[node.link];
+    if (node.parent < 0 || link.parent >= 0 || body.nodes[node.parent].link == node.link) continue;
+    link.parent = body.nodes[node.parent].link;
+  }
+  SetLimits(figure, &body);
   return body;
 }
 
@@ -98,6 +137,7 @@ Json SubjectJson(const solver::MetricsContext& subject, const solver::Metrics& r
       figure["length"][body.nodes[n].name] = subject.length[f][n];
     }
     figure["nodes"] = NodesJson(body);
+    figure["limits"] = LimitsJson(body);
   }
   for (int f = 0; f < 2; ++f) {
     Json contacts = Json::array();
@@ -126,6 +166,8 @@ solver::MetricsContext SubjectFromJson(const Json& report, const std::string& pa
       const Json& figure = report.at("bodies").at(kFigure[f]);
       Body& body = subject.body[f];
       body = BodyFromJson(figure);
+      subject.carried[f] =
+          report.contains("supports") && report.at("supports").at(kFigure[f]).empty();
       subject.length[f].assign(body.nodes.size(), 0);
       for (int n = 1; n < body.num_nodes(); ++n) {
         body.nodes[n].radius = figure.at("radius").at(body.nodes[n].name);

@@ -137,6 +137,21 @@ std::string MissedBy(const ReadRequirement& r) {
       return fmt::format(
           "The written rig of {} departs from the scene by {:.2f} {}, {:.2f} allowed", who, value,
           shown, limit);
+    case Kind::kPoseError:
+      return fmt::format("{} is bent out of its clip by {}", who, allowed);
+    case Kind::kTrunkTilt:
+      return fmt::format(
+          "The trunk of {}, which is not carried, tilts from its clip by {:.0f} "
+          "degrees, {:.0f} allowed",
+          who, value, limit);
+    case Kind::kFloating:
+      return fmt::format("{}, which is not carried, floats by {}", who, allowed);
+    case Kind::kJointLimit:
+      return fmt::format("A joint of {} bends {:.0f} degrees beyond its range, {:.0f} allowed", who,
+                         value, limit);
+    case Kind::kJerk:
+      return fmt::format("{} jerks {:.1f} times as much as its clip, {:.1f} allowed", who, value,
+                         limit);
   }
   return "";
 }

@@ -26,14 +26,18 @@ report::Json LimitJson(const JointLimit& limit, bool locked) {
             {"hinge_play", limit.hinge_play / kDegree},
             {"twist", twist}};
   }
-  if (limit.swing_max >= kPi && limit.twist_min <= -kPi && limit.twist_max >= kPi) {
-    return {{"kind", "free"}};
+  if (!limit.has_swing()) return {{"kind", "free"}};
+  report::Json json = {{"kind", "swing_twist"},
+                       {"axis", VectorJson(limit.axis)},
+                       {"middle", QuatJson(limit.middle)},
+                       {"swing_axis", VectorJson(limit.swing_axis)},
+                       {"swing", {limit.swing_min / kDegree, limit.swing_max / kDegree}},
+                       {"side", {limit.side_min / kDegree, limit.side_max / kDegree}},
+                       {"twist", twist}};
+  if (limit.turns_with_parent) {
+    json["twist_with_parent"] = {limit.with_parent_min / kDegree, limit.with_parent_max / kDegree};
   }
-  return {{"kind", "swing_twist"},
-          {"axis", VectorJson(limit.axis)},
-          {"swing_centre", VectorJson(limit.swing_centre)},
-          {"swing_max", limit.swing_max / kDegree},
-          {"twist", twist}};
+  return json;
 }
 
 // The node at a link's joint centre; null where there is none.

@@ -1,28 +1,26 @@
-// joint_limit: a joint turns no further than its limit, or than the capture itself.
-//   r = max(0, beyond(R) - max(0, beyond(R_source)))        (rad), per limit of model/body/body.h:
-// twist about the bone, swing of the bone's direction, and for hinges the bend and its plane.
-// 1 frame, 1 body. YAML: weights.joint_limit.
+// joint_limit: a joint turns no further than its limits, or than the capture itself.
+//   r = soft(beyond(R) - max(0, beyond(R_source) + m))      (rad), per limit of
+// model/body/joint_limit.h, with m = kSoftMargin and soft(x) = 0 for x < -m, (x + m)^2 / 4m for
+// |x| <= m, x beyond: it begins before the end of the range, has no kink, and asks nothing of a
+// pose as captured. 1 frame, 1 body. YAML: weights.joint_limit.
 #pragma once
-
-#include <vector>
 
 #include "solver/problem/term.h"
 
 namespace retarget::solver {
 
-// How far a rotation lies beyond each limit (rad; negative: within), and the derivative by a turn
-// R -> R exp(w).
-struct LimitViolation {
-  double beyond;
-  Vec3 gradient;
-};
-std::vector<LimitViolation> LimitViolations(const JointLimit& limit, const Quat& rotation);
+// A joint's resistance begins this far before the end of its range (rad).
+inline constexpr double kSoftMargin = 10 * kDegree;
 
 class JointLimitTerm : public Term {
  public:
   const char* name() const override { return "joint_limit"; }
   const char* unit() const override { return "rad"; }
+  int row_slots(const Frame&) const override { return kSlots; }
   void EvaluatePart(const Frame& frame, int part, Rows* rows) const override;
+
+ private:
+  static constexpr int kSlots = 24;  // a held pose has this many joints near an end
 };
 
 }  // namespace retarget::solver

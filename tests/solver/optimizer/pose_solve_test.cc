@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "model/body/joint_limit.h"
 #include "model/body/shape.h"
 #include "model/geometry/capsule.h"
 #include "model/geometry/gli.h"
-#include "solver/problem/terms/joint_limit.h"
 #include "tests/solver/scene_fixture.h"
 
 namespace retarget::solver {
@@ -67,9 +67,7 @@ double DeepestBetween(const PoseTask& task, const std::array<Pose, 2>& pose) {
 double FurthestBeyondLimits(const Body& body, const Pose& pose) {
   double furthest = 0;
   for (int l = 1; l < body.num_links(); ++l) {
-    for (const LimitViolation& v : LimitViolations(body.links[l].limit, pose.rotation[l])) {
-      furthest = std::max(furthest, v.beyond);
-    }
+    furthest = std::max(furthest, FurthestBeyondLimit(body, l, pose));
   }
   return furthest;
 }

@@ -12,7 +12,12 @@ export type RequirementKind =
   | "floor"
   | "hold"
   | "segment_length"
-  | "write_back";
+  | "write_back"
+  | "plausible.pose_error"
+  | "plausible.trunk_tilt"
+  | "plausible.floating"
+  | "plausible.joint_limit"
+  | "plausible.jerk";
 
 export interface Requirement {
   name: string;

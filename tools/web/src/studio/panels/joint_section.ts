@@ -100,7 +100,10 @@ export class JointSection {
     this.place.set(this.store.place(selected));
     const { root, rotation_vectors } = state.figures[figure];
     const vector = ui.joint === 0 ? root.rotation_vector : rotation_vectors[ui.joint];
-    const readings = ui.joint === 0 ? [] : readLimits(links[ui.joint].limits, vector);
+    const { parent, limits } = links[ui.joint];
+    const axis = parent > 0 ? links[parent].limits.axis : undefined;
+    const before = axis && { axis, rotation_vector: rotation_vectors[parent] };
+    const readings = ui.joint === 0 ? [] : readLimits(limits, vector, before);
     this.turn.set(vector);
     this.turn.warn(readings.some((r) => r.beyond));
     list(

@@ -4,7 +4,7 @@
 import { MathUtils, Quaternion, Vector3 } from "three";
 import { okabeIto } from "../../shared/colours";
 import { themeColour } from "../../shared/theme";
-import { coneOf, hingeOf, readLimits, rotationOf, type Cone, type Hinge } from "../state/limits";
+import { coneOf, hingeOf, reachOf, readLimits, rotationOf, type Cone, type Hinge } from "../state/limits";
 import type { Store } from "../state/store";
 import type { View } from "./view";
 
@@ -23,16 +23,12 @@ function arc({ axis, hinge, bend }: Hinge): Vector3[] {
 }
 
 // The furthest directions of a swing, in the joint's parent.
-function rim({ centre, swing }: Cone): Vector3[] {
-  const middle = centre.clone().normalize();
-  const side = middle
-    .clone()
-    .cross(Math.abs(middle.y) < 0.9 ? new Vector3(0, 1, 0) : new Vector3(1, 0, 0))
-    .normalize();
-  const first = middle.clone().applyAxisAngle(side, MathUtils.degToRad(swing));
-  return Array.from({ length: kSteps.rim + 1 }, (_, k) =>
-    first.clone().applyAxisAngle(middle, (2 * Math.PI * k) / kSteps.rim),
-  );
+function rim(cone: Cone): Vector3[] {
+  return Array.from({ length: kSteps.rim + 1 }, (_, k) => {
+    const [u, v] = [Math.cos, Math.sin].map((f) => f((2 * Math.PI * k) / kSteps.rim));
+    const about = cone.about.clone().multiplyScalar(u).addScaledVector(cone.across, v);
+    return cone.centre.clone().applyAxisAngle(about, MathUtils.degToRad(reachOf(cone, u, v)));
+  });
 }
 
 function fill(context: Context, outline: Point[], colour: string): void {
@@ -75,7 +71,9 @@ export function drawLimits(context: Context, view: View, store: Store): void {
   if (!middle || points.some((p) => !p)) return;
   const outline = points as Point[];
   const turn = state.rotation_vectors[joint];
-  const beyond = readLimits(limits, turn).some((r) => r.beyond);
+  const before = store.body[figure].links[parent].limits.axis;
+  const parentJoint = before && { axis: before, rotation_vector: state.rotation_vectors[parent] };
+  const beyond = readLimits(limits, turn, parentJoint).some((r) => r.beyond);
   const colour = beyond ? okabeIto.orange : themeColour("--accent");
   fill(context, hinge ? [middle, ...outline] : outline, colour);
   const now = onPage((hinge ?? cone!).axis.applyQuaternion(rotationOf(turn)));

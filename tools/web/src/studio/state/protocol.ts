@@ -15,8 +15,11 @@ export interface Limits {
   kind: string; // "fixed", "hinge", "swing_twist", "free"
   axis?: Vec;
   twist?: [number, number];
-  swing_centre?: Vec; // a direction
-  swing_max?: number; // furthest from the centre
+  middle?: Quat; // rotation in the middle of the range
+  swing_axis?: Vec; // perpendicular to where the bone points there
+  swing?: [number, number]; // about that axis, half axes of an ellipse
+  side?: [number, number]; // and about the direction times that axis
+  twist_with_parent?: [number, number]; // of both; then the swing is told in the link's own frame
   hinge_axis?: Vec;
   bend?: [number, number];
   hinge_play?: number; // out of the plane of bending
