@@ -1,11 +1,13 @@
 #include "solver/retarget.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "model/body/joint_limit.h"
 #include "model/body/travel.h"
 #include "solver/attempts.h"
 #include "solver/problem/root_targets.h"
+#include "solver/start/clip_fit.h"
 #include "solver/start/weak_tags.h"
 
 namespace retarget::solver {
@@ -89,6 +91,10 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
   WarnOfWeakTags(&result);
   WarnOfLimits(input.posture, &result);
   for (int f = 0; f < 2; ++f) WarnOfFeet(f, settings, &result);
+  const ClipFit fit = FitOf(input.posture, result.tangles.tags, input.clip, input.template_frame);
+  for (std::string& warning : WarningsOf(fit, IsSameMotion(input.clip[0], input.clip[1]))) {
+    result.warnings.push_back(std::move(warning));
+  }
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include "io/settings_file.h"
 #include "model/rig/t_pose_frame.h"
 #include "model/rig/write_back.h"
+#include "solver/start/clip_fit.h"
 #include "tools/api/job.h"
 #include "tools/api/run_report.h"
 #include "tools/api/version.h"
@@ -53,6 +54,18 @@ WrittenRig WriteRig(const Job& job, const solver::RetargetResult& result, int f,
   return out;
 }
 
+// One performer beside herself at another time. (The same time: solver::IsSameMotion.)
+bool IsOneFileAtTwoTimes(const Job& job) {
+  const auto source = [&](int f) {
+    const io::LoadedClip& clip = job.clip[f];
+    const std::string& path = clip.options.path;
+    const size_t selection = path.find('#');
+    return (clip.motion_facts ? clip.motion_hash : clip.hash) +
+           (selection == std::string::npos ? "" : path.substr(selection));
+  };
+  return source(0) == source(1) && !solver::IsSameMotion(job.input.clip[0], job.input.clip[1]);
+}
+
 Status StatusOf(solver::SolveStatus status, bool all_met) {
   if (status == solver::SolveStatus::kInterrupted) return Status::kInterrupted;
   if (status != solver::SolveStatus::kConverged) return Status::kLimitReached;
@@ -72,6 +85,9 @@ Result RunJob(const Job& job, const Progress& progress) {
   result.run = solver::Retarget(job.input, settings, [&](const solver::Iteration& iteration) {
     return !progress || progress(iteration);
   });
+  if (IsOneFileAtTwoTimes(job)) {
+    result.run.warnings.push_back("both clips are the same file, at different instants");
+  }
   const solver::Scene& scene = result.run.scene;
   for (const std::string& warning : result.run.warnings) {
     result.notes.push_back("warning: " + warning);
