@@ -100,8 +100,13 @@ Unknowns RandomEdit(const Scene& scene, double size, unsigned seed) {
 
 TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
   std::map<std::string, Checked> checked;
-  for (const std::string roots : {"own", "follow", "drift"}) {
+  for (const std::string roots : {"own", "follow", "drift", "steps"}) {
     Scene scene = SmallScene(4, 0.2, roots == "follow");
+    for (int f = 0; f < 2 && roots == "steps"; ++f) {  // from footprint to footprint
+      const int ankle = scene.body[f].FindNode("right_ankle"),
+                toe = scene.body[f].FindNode("right_toe");
+      scene.contacts[f] = {{ankle, 0, 0}, {ankle, 3, 3}, {toe, 0, 0}, {toe, 2, 3}};
+    }
     for (int t = 0; t < 4 && roots == "drift"; ++t) {  // b walks and turns away from a
       Pose& b = scene.source[1].frames[t];
       b.root_position += Vec3(0.1 * t, 0, 0.2 * t);
