@@ -39,6 +39,7 @@ struct MetricsContext {
   std::vector<TangleTarget> tangles;
   std::vector<Hold> holds;
   std::array<std::vector<Contact>, 2> contacts;
+  std::vector<HandContact> hand_contacts = {};
 };
 MetricsContext MetricsContextOf(const Scene& scene);
 
