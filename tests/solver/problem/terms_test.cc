@@ -119,6 +119,16 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
       scene.locked_axes[f].assign(
           4, {{elbow, Vec3(0.6, 0.8, 0)}, {elbow, Vec3(0, 0, 1)}, {ankle, Vec3(1, 2, -2) / 3}});
     }
+    for (HandContact c : FindHandContacts(
+             scene.body,
+             {PoseBody(scene.body[0], scene.posture.pose[0]),
+              PoseBody(scene.body[1], scene.posture.pose[1])},
+             1)) {
+      scene.hand_contacts.push_back(c);
+      c.along = c.to_along = 0.3;
+      scene.hand_contacts.push_back(c);
+    }
+    ASSERT_EQ(scene.hand_contacts.size(), 8u);
     const Problem problem(scene, {});
     for (unsigned seed = 0; seed < 11; ++seed) {
       const Unknowns u = RandomEdit(scene, seed == 0 ? 0 : 0.25, seed);
@@ -131,14 +141,15 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
   }
   for (const auto& term :
        {"pose_tracking", "root_tracking", "foot_lock", "foot_swing", "hold", "penetration",
-        "self_penetration", "ground", "tangle", "joint_limit", "rig_turn"}) {
+        "self_penetration", "ground", "tangle", "tangle_aim", "hand_contact", "joint_limit",
+        "rig_turn"}) {
     const Checked& c = checked[term];
     std::printf("%-17s %6d rows %8d entries %7d not zero %3d frames skipped\n", term, c.rows,
                 c.entries, c.nonzero, c.skipped);
     EXPECT_GT(c.rows, 20) << term;
     EXPECT_GT(c.nonzero, 60) << term;
   }
-  EXPECT_EQ(checked.size(), 11u);
+  EXPECT_EQ(checked.size(), 13u);
 }
 
 TEST(Terms, PartsAreOfTheSceneAndAddUpToTheTerm) {
@@ -288,7 +299,7 @@ double TrackingCost(const Scene& scene, const Settings& settings,
 TEST(Terms, TrackingIsTheDistanceFromTheSource) {
   Settings settings;
   const double pose_weight = settings.weights.pose_tracking;
-  settings.weights = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  settings.weights = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   settings.weights.pose_tracking = pose_weight;
   settings.weights.root_tracking = 6;
   for (const bool follow : {false, true}) {
