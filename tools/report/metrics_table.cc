@@ -64,16 +64,20 @@ void AddFigureRows(int figure, std::vector<MetricRow>* rows) {
   add("jerk, to the larger source", "x", {}, 1, "jerk_ratio_larger");
 }
 
-bool Misses(const MetricRow& row, double value, double limit) {
-  return row.requirement == Kind::kTangle ? value <= limit : value > limit;
-}
-
 }  // namespace
 
 std::vector<MetricRow> MetricRows() {
   std::vector<MetricRow> rows = PairRows();
   for (int f = 0; f < 2; ++f) AddFigureRows(f, &rows);
   return rows;
+}
+
+std::string LabelOf(const MetricRow& row) {
+  return row.name + (row.unit.empty() ? "" : ", " + row.unit);
+}
+
+bool Misses(const MetricRow& row, double value, double limit) {
+  return row.requirement == Kind::kTangle ? value <= limit : value > limit;
 }
 
 Json LimitOf(const MetricRow& row, const Json& requirements) {
