@@ -62,11 +62,11 @@ class Runner {
   }
 
   bool Run(const std::function<bool()>& stop) {
+    active_ = runner_.processes;
     std::vector<std::thread> workers;
     for (int k = 0; k < runner_.processes; ++k) workers.emplace_back([this] { Work(); });
     {
       std::unique_lock lock(mutex_);
-      active_ = runner_.processes;
       while (!over_.wait_for(lock, std::chrono::milliseconds(100), [&] { return active_ == 0; })) {
         if (!stopped_ && (stop() || failure_)) Stop();
       }
