@@ -83,7 +83,9 @@ const std::map<std::string, Names>& KnownFolders() {
       {"tools/api", {"tools/report", "tools/proof"}},
       {"tools/posing", {"tools/report", "tools/api"}},
       {"tools/studio", {"tools/report", "tools/api", "tools/posing"}},
+      {"tools/batch", {"tools/report", "tools/api", "tools/studio"}},
       {"tools/cli", {"tools/report", "tools/proof", "tools/api", "tools/posing", "tools/studio"}},
+      {"tools/cli/batch", {"tools/report", "tools/api", "tools/batch", "tools/cli"}},
       {"tools/cli/proof", {"tools/report", "tools/proof", "tools/api", "tools/cli"}},
       {"tools/examples/embed", {}},
       {"tools/bench", {"tools/report", "tools/api", "tools/posing", "tools/studio"}}};
@@ -177,7 +179,7 @@ const std::vector<Library>& Libraries() {
       {"png.h", {"io/render"}, {}, 1},
       {"openssl/", {"io"}, {}, 1},
       {"stb/", {"io/render"}, {}, 1},
-      {"CLI/", {"tools/cli"}, {}, 4},
+      {"CLI/", {"tools/cli"}, {}, 5},
       {"retarget/retarget.h", {"tools/examples"}, {}, kAnyNumber},  // as users include it
       {"httplib.h", {"tools/studio", "tools/bench"}, {}, 2},
       {"benchmark/", {"tools/bench"}, {}, kAnyNumber},
@@ -190,6 +192,7 @@ const std::vector<Library>& Libraries() {
       {"sys/", {"tools"}, {"tools/studio/child_process.h", "tools/bench/in_child.h"}, kAnyNumber},
       {"unistd.h", {"io", "tools"}, {"tools/bench/in_child.h"}, kAnyNumber},
       {"fcntl.h", {"tools"}, {}, 1},
+      {"glob.h", {"tools/batch"}, {}, 1},
       {"spawn.h", {"tools"}, {}, 1},
       {"time.h", {"tools"}, {}, 2}};
   return libraries;

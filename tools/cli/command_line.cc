@@ -74,6 +74,7 @@ void CommandLine::Build(CLI::App* app) {
   AddTemplate(app);
   AddPose(app);
   AddStudio(app);
+  AddBatch(app);
   AddCompletion(app);
 }
 
@@ -91,6 +92,7 @@ void CommandLine::AddCompletion(CLI::App* app) {
 
 void CommandLine::AddRetarget(CLI::App* app) {
   AddScene(app);
+  app->add_flag("!--no-page", retarget.page, "no report.html");
   CLI::App* simulate = app->add_subcommand(
       "simulate", "the forward simulation alone: what `retarget` is compared with");
   AddScene(simulate);

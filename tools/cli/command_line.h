@@ -26,6 +26,7 @@ struct CommandLine {
   int RunTemplate();
   void AddPose(CLI::App* app);
   void AddStudio(CLI::App* app);
+  void AddBatch(CLI::App* app);
   void RequireScene() const;
 
   RetargetOptions retarget;
@@ -33,6 +34,7 @@ struct CommandLine {
   PoseCommandOptions pose;
   GalleryOptions gallery;
   StudioOptions studio;
+  BatchOptions batch;
   VerifySceneOptions verify_scene;
   io::ClipOptions map_clip;
   SettingsOptions settings;

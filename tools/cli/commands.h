@@ -12,6 +12,7 @@
 #include "io/load_clip.h"
 #include "model/body/template_posture.h"
 #include "tools/api/retarget.h"
+#include "tools/cli/command_spec.h"
 
 namespace retarget::cli {
 
@@ -41,6 +42,7 @@ struct RetargetOptions {
   int threads = -1;                // -1: as configured
   std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines
   bool json = false, force = false;
+  bool page = true;    // report.html
   bool quiet = false;  // says nothing of the result
 };
 // As a request to the library: settings from the configuration file, then --set, then --threads.
@@ -113,6 +115,20 @@ struct GalleryOptions {
   bool force = false;
 };
 int RunGallery(const GalleryOptions& options);
+
+// `retarget batch`: many pairs of a manifest or of two patterns.
+struct BatchOptions {
+  std::string manifest;                // path
+  std::array<std::string, 2> pairs;    // instead: patterns of clips
+  std::string pairing = "all";         // of them: "all" or "name"
+  std::vector<std::string> templates;  // of them
+  std::vector<std::string> with;       // "column=value" for every row
+  std::string out, shard, memory;      // empty: none, the Slurm task's, what is free
+  int processes = 0;                   // 0: one for each processor
+  bool resume = false, force = false, merge = false, pictures = true, json = false;
+};
+// `columns`: the options of the program that a manifest may give. 0: all are met; 3: not all.
+int RunBatch(const BatchOptions& options, const std::vector<OptionSpec>& columns);
 
 // `retarget studio`: serves the posing page until it is interrupted.
 struct StudioOptions {

@@ -86,6 +86,7 @@ Request RequestOf(const RetargetOptions& options) {
   request.frames = ParseFrames(options.frames);
   request.template_at = options.template_at;
   request.show = options.show == "characters" ? Show::kCharacters : Show::kFigures;
+  request.page = options.page;
   request.rest = options.rest == "t-pose" ? Rest::kTPose : Rest::kKeep;
   return request;
 }

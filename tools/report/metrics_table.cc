@@ -70,16 +70,20 @@ void AddFigureRows(int figure, std::vector<MetricRow>* rows) {
   add("beyond a joint's range", "deg", Kind::kJointLimit, 1, "beyond_joint_limit_deg");
 }
 
-bool Misses(const MetricRow& row, double value, double limit) {
-  return row.requirement == Kind::kTangle ? value <= limit : value > limit;
-}
-
 }  // namespace
 
 std::vector<MetricRow> MetricRows() {
   std::vector<MetricRow> rows = PairRows();
   for (int f = 0; f < 2; ++f) AddFigureRows(f, &rows);
   return rows;
+}
+
+std::string LabelOf(const MetricRow& row) {
+  return row.name + (row.unit.empty() ? "" : ", " + row.unit);
+}
+
+bool Misses(const MetricRow& row, double value, double limit) {
+  return row.requirement == Kind::kTangle ? value <= limit : value > limit;
 }
 
 Json LimitOf(const MetricRow& row, const Json& requirements) {

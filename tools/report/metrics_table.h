@@ -20,6 +20,10 @@ struct MetricRow {
 };
 std::vector<MetricRow> MetricRows();
 
+// "pose error a, cm".
+std::string LabelOf(const MetricRow& row);
+// Whether a value (not NaN) is on the wrong side of the row's limit.
+bool Misses(const MetricRow& row, double value, double limit);
 // The limit of a row (in its unit) among the requirements of report.json; null where there is none.
 Json LimitOf(const MetricRow& row, const Json& requirements);
 // "12.34*", the star where the limit is missed; "-" where there is nothing to measure.
