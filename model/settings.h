@@ -53,7 +53,7 @@ struct Weights {
 // Shares of weights.pose_tracking and of weights.smoothness, by joint group.
 struct JointWeights {
   double waist = 2, chest = 2, neck = 1, head = 1, clavicle = 1, shoulder = 0.7, elbow = 0.7,
-         wrist = 0.3, hip = 1, knee = 1, ankle = 0.5, other = 0.3;
+         wrist = 0.7, hip = 1, knee = 1, ankle = 0.5, other = 0.3;
 };
 // Share of the group that a link belongs to ("left_elbow" -> elbow); 1 for the root.
 double JointShare(const JointWeights& weights, const std::string& link_name);
