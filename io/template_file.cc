@@ -88,7 +88,7 @@ void CheckTemplateFormat(const Value& root) {
 TemplatePosture PostureFrom(const Value& root) {
   CheckTemplateFormat(root);
   root.CheckKeys({"format", "name", "description", "tags", "a", "b", "holds", "supports", "root",
-                  "tangles", "photo", "camera"});
+                  "tangles", "contacts", "photo", "camera"});
   root.Require("format").Integer(kTemplateFormat, kTemplateFormat);
   TemplatePosture posture;
   std::array<PosedBody, 2> posed;
@@ -106,6 +106,12 @@ TemplatePosture PostureFrom(const Value& root) {
   if (const auto v = root.Find("root")) posture.root = ReadRootLeaders(*v);
   if (const auto v = root.Find("tangles")) {
     for (const Value& t : v->List()) posture.tangles.push_back(ReadTangle(t, posture.body));
+  }
+  if (const auto v = root.Find("contacts")) {
+    posture.contacts.emplace();
+    for (const Value& c : v->List()) {
+      posture.contacts->push_back(ReadHandContact(c, posture.body, posed));
+    }
   }
   if (const auto v = root.Find("photo")) posture.photo = ReadPhoto(*v, std::string::npos);
   if (const auto v = root.Find("camera")) posture.camera = ReadOwnCamera(*v);

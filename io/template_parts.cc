@@ -92,6 +92,32 @@ Hold MakeHold(const HoldRequest& request, const std::array<Body, 2>& body,
   return hold;
 }
 
+HandContact ReadHandContact(const Value& map, const std::array<Body, 2>& body,
+                            const std::array<PosedBody, 2>& posed) {
+  map.CheckKeys({"from", "to"});
+  const Value from = map.Require("from"), to = map.Require("to");
+  HandContact contact;
+  from.CheckKeys({"figure", "node", "along"});
+  to.CheckKeys({"figure", "node", "along"});
+  contact.figure = from.Require("figure").Name("figure", {"a", "b"});
+  const int f = contact.figure, g = 1 - f;
+  const std::vector<int> hands = HandNodes(body[f]);
+  std::vector<std::string> names;
+  for (const int hand : hands) names.push_back(body[f].nodes[hand].name);
+  contact.hand = hands[static_cast<size_t>(from.Require("node").Name("hand", names))];
+  if (to.Require("figure").Name("figure", {"a", "b"}) != g) {
+    to.Refuse("expected a segment of the partner, found one of the hand's own figure");
+  }
+  contact.to = ReadNode(to.Require("node"), body[g]);
+  if (body[g].nodes[contact.to].parent < 0) {
+    to.Refuse("expected a node that ends a segment, found the root");
+  }
+  PlaceHandContact(body, posed, &contact);
+  if (const auto v = from.Find("along")) contact.along = v->Number(0, 1);
+  if (const auto v = to.Find("along")) contact.to_along = v->Number(0, 1);
+  return contact;
+}
+
 TemplatePhoto ReadPhoto(const Value& value, size_t longest_name) {
   value.CheckKeys({"file", "opacity", "scale", "offset"});
   TemplatePhoto photo;

@@ -33,6 +33,11 @@ HoldRequest ReadHold(const Value& map, const std::array<Body, 2>& body);
 Hold MakeHold(const HoldRequest& request, const std::array<Body, 2>& body,
               const std::array<PosedBody, 2>& posed);
 
+// {from: {figure, node: HAND, along}, to: {figure, node, along}}: a hand on a segment of the
+// partner. Without `along` (shares, 0 to 1) where the two are nearest in the posture.
+HandContact ReadHandContact(const Value& map, const std::array<Body, 2>& body,
+                            const std::array<PosedBody, 2>& posed);
+
 TemplatePhoto ReadPhoto(const Value& value, size_t longest_name);
 TemplateCamera ReadCamera(const Value& value);
 

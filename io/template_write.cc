@@ -165,6 +165,21 @@ std::string TanglesText(const TemplatePosture& posture) {
   return out;
 }
 
+std::string ContactsText(const TemplatePosture& posture) {
+  if (!posture.contacts) return "";
+  if (posture.contacts->empty()) return "contacts: []\n";
+  std::string out = "contacts:\n";
+  const auto end = [&](int figure, int node, double along) {
+    return fmt::format("{{figure: {}, node: {}, along: {}}}", FigureNames()[figure],
+                       posture.body[figure].nodes[node].name, Number(along));
+  };
+  for (const HandContact& c : *posture.contacts) {
+    out += fmt::format("  - from: {}\n    to: {}\n", end(c.figure, c.hand, c.along),
+                       end(1 - c.figure, c.to, c.to_along));
+  }
+  return out;
+}
+
 std::string ViewText(const TemplatePosture& posture) {
   std::string out;
   if (const auto& photo = posture.photo) {
@@ -203,7 +218,7 @@ std::string FormatTemplate(const TemplatePosture& posture) {
       fmt::format("supports:\n  a: {}\n  b: {}\n", NodeList(posture.body[0], posture.supports[0]),
                   NodeList(posture.body[1], posture.supports[1]));
   out += fmt::format("root: {{a: {}, b: {}}}\n", leader(0), leader(1));
-  return out + TanglesText(posture) + ViewText(posture);
+  return out + TanglesText(posture) + ContactsText(posture) + ViewText(posture);
 }
 
 }  // namespace retarget::io

@@ -41,7 +41,7 @@ std::vector<double> ParseStages(const std::string& text) {
 double JointShare(const JointWeights& w, const std::string& link_name) {
   const size_t side = link_name.find('_');
   const std::string joint = side == std::string::npos ? link_name : link_name.substr(side + 1);
-  if (joint == "root") return 1;
+  if (joint == "root") return w.root;
   if (joint == "waist") return w.waist;
   if (joint == "chest") return w.chest;
   if (joint == "neck") return w.neck;

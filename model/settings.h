@@ -37,8 +37,8 @@ void CheckStages(const std::vector<double>& stages);
 struct Weights {
   double pose_tracking = 1;
   double root_tracking = 6;
-  double smoothness = 10;
-  double root_smoothness = 20;
+  double smoothness = 30;
+  double root_smoothness = 0;
   double foot_lock = 300;
   double foot_swing = 60;
   double hold = 60;
@@ -46,16 +46,19 @@ struct Weights {
   double self_penetration = 60;
   double ground = 100;
   double tangle = 20;
+  double tangle_aim = 4;
+  double hand_contact = 30;
   double joint_limit = 10;
   double rig_turn = 100;
 };
 
-// Shares of weights.pose_tracking and of weights.smoothness, by joint group.
+// Shares of weights.pose_tracking and of weights.smoothness, by joint group; that of the root is of
+// smoothness alone.
 struct JointWeights {
   double waist = 2, chest = 2, neck = 1, head = 1, clavicle = 1, shoulder = 0.7, elbow = 0.7,
-         wrist = 0.7, hip = 1, knee = 1, ankle = 0.5, other = 0.3;
+         wrist = 0.7, hip = 1, knee = 1, ankle = 0.5, other = 0.3, root = 4;
 };
-// Share of the group that a link belongs to ("left_elbow" -> elbow); 1 for the root.
+// Share of the group that a link belongs to ("left_elbow" -> elbow).
 double JointShare(const JointWeights& weights, const std::string& link_name);
 
 struct TangleSettings {
@@ -63,6 +66,12 @@ struct TangleSettings {
   double min_rho = 0.08;
   double min_rho_share = 0.3;
   int max_tags = 6;
+};
+
+// Hands that touch in the template (model/body/hand_contact.h).
+struct HandContactSettings {
+  double reach_m = 0.03;  // a hand no further from a surface touches it
+  double slide_m = 0.04;  // that it may slide
 };
 
 // What a solved scene must show (docs/metrics.md).
@@ -114,14 +123,15 @@ struct ContactSettings {
 
 // The forward simulation (solver/simulation): baseline, and one of the starts.
 struct SimulationSettings {
-  double time_step = 0.004;           // s
-  double gravity = 9.81;              // m/s^2
-  double stiffness = 600;             // N m/rad, of the joints' control towards the capture
-  double damping = 0.1;               // s, of the same: damping over stiffness
-  double armature = 0.02;             // kg m^2, added to every joint's inertia
-  double root_stiffness = 10000;      // N/m, of the roots' control
-  double root_turn_stiffness = 1500;  // N m/rad, of the same
-  double root_damping = 0.1;          // s, of the same: damping over stiffness
+  double time_step = 0.004;            // s
+  double gravity = 9.81;               // m/s^2
+  double stiffness = 600;              // N m/rad, of the joints' control towards the capture
+  double damping = 0.1;                // s, of the same: damping over stiffness
+  double armature = 0.02;              // kg m^2, added to every joint's inertia
+  double root_stiffness = 10000;       // N/m, of the roots' control
+  double root_turn_stiffness = 1500;   // N m/rad, of the same
+  double root_height_stiffness = 1e5;  // N/m, of the same in height, against all loads
+  double root_damping = 0.1;           // s, of the same: damping over stiffness
   double friction = 1;
   double contact_time = 0.01;  // s: contacts give way for about this long
   double tie_time = 0.01;      // s, the same of holds and planted feet
@@ -139,6 +149,7 @@ struct Settings {
   Weights weights;
   JointWeights joint_weights;
   TangleSettings tangle;
+  HandContactSettings hand_contact;
   Requirements requirements;
   SolveSettings solve;
   ContactSettings contact;
@@ -168,9 +179,9 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("weights.root_tracking", w.root_tracking, "1/m, 1/rad",
         "root stays with its placed clip, or with its partner", 0, kMax);
   visit("weights.smoothness", w.smoothness, "1/rad",
-        "second difference of the joint edits, per (1/30 s)^2", 0, kMax);
-  visit("weights.root_smoothness", w.root_smoothness, "1/m, 1/rad", "the same of the root edit", 0,
-        kMax);
+        "the edit changes evenly: its second difference, per (1/30 s)^2", 0, kMax);
+  visit("weights.root_smoothness", w.root_smoothness, "1/m, 1/rad",
+        "more of the same for the roots alone", 0, kMax);
   visit("weights.foot_lock", w.foot_lock, "1/m", "planted feet stay where they are", 0, kMax);
   visit("weights.foot_swing", w.foot_swing, "1/m",
         "free feet near the floor move along the path of the capture", 0, kMax);
@@ -180,6 +191,10 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
         "no body overlaps itself more than captured", 0, kMax);
   visit("weights.ground", w.ground, "1/m", "nothing below the floor", 0, kMax);
   visit("weights.tangle", w.tangle, "1/turn", "tagged tangles stay above one half", 0, kMax);
+  visit("weights.tangle_aim", w.tangle_aim, "1/turn",
+        "tagged tangles are drawn to their value in the template", 0, kMax);
+  visit("weights.hand_contact", w.hand_contact, "1/m",
+        "hands touch what they touch in the template", 0, kMax);
   visit("weights.joint_limit", w.joint_limit, "1/rad",
         "joints bend no further than the limit or the capture", 0, kMax);
   visit("weights.rig_turn", w.rig_turn, "1/rad",
@@ -197,6 +212,7 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("joint_weights.knee", j.knee, "", "the same", 0, kMax);
   visit("joint_weights.ankle", j.ankle, "", "the same", 0, kMax);
   visit("joint_weights.other", j.other, "", "joints of a larger body table", 0, kMax);
+  visit("joint_weights.root", j.root, "", "the root's share of smoothness", 0, kMax);
   auto& t = s.tangle;
   visit("tangle.margin", t.margin, "turns",
         "a tag aims this far over one half (never over the template)", 0, 0.5);
@@ -204,6 +220,10 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("tangle.min_rho_share", t.min_rho_share, "",
         "nor those this much weaker than the most robust", 0, 1);
   visit("tangle.max_tags", t.max_tags, "", "largest number of tags", 1, 100);
+  auto& hand = s.hand_contact;
+  visit("hand_contact.reach_m", hand.reach_m, "m",
+        "a hand no further from a surface of the partner in the template touches it", 0, 1);
+  visit("hand_contact.slide_m", hand.slide_m, "m", "that a touching hand may slide", 0, 1);
   auto& r = s.requirements;
   visit("requirements.gli", r.gli, "turns", "every tag, signed, at every instant", 0, 2);
   visit("requirements.pass_throughs", r.pass_throughs, "", "limbs that went through limbs", 0,
@@ -270,6 +290,8 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
         "roots move towards the capture, or to their place on the partner", 0, kMax);
   visit("simulation.root_turn_stiffness", m.root_turn_stiffness, "N m/rad", "roots turn likewise",
         0, kMax);
+  visit("simulation.root_height_stiffness", m.root_height_stiffness, "N/m",
+        "roots keep the height of the capture", 0, kMax);
   visit("simulation.root_damping", m.root_damping, "s", "of the same, over its stiffness", 0, 10);
   visit("simulation.friction", m.friction, "", "of figures and floor", 0, 10);
   visit("simulation.contact_time", m.contact_time, "s", "contacts give way for about this long",

@@ -75,9 +75,12 @@ RetargetResult Prepare(const RetargetInput& input, const Settings& settings) {
   Scene& scene = result.scene;
   scene.body = input.body;
   scene.template_frame = input.template_frame;
-  scene.posture = FitTemplate(input.posture, input.body, result.tangles.tags, settings);
+  TemplatePosture posture = input.posture;
+  posture.contacts = HandContactsOf(posture, settings.hand_contact.reach_m);
+  scene.posture = FitTemplate(posture, input.body, result.tangles.tags, settings);
   scene.tangles = TangleTargets(result.tangles.tags, scene.posture, settings.tangle.margin);
   scene.holds = scene.posture.holds;
+  scene.hand_contacts = *scene.posture.contacts;
   scene.root = scene.posture.root;
   scene.locked_axes = input.locked_axes;
   for (int f = 0; f < 2; ++f) {

@@ -11,6 +11,14 @@ Vec3 HoldPosition(const HoldPoint& point, const std::array<Body, 2>& body,
   return p.node[point.node] + p.rotation[body[point.figure].nodes[point.node].link] * point.offset;
 }
 
+std::vector<HandContact> HandContactsOf(const TemplatePosture& posture, double reach) {
+  if (posture.contacts) return *posture.contacts;
+  return FindHandContacts(
+      posture.body,
+      {PoseBody(posture.body[0], posture.pose[0]), PoseBody(posture.body[1], posture.pose[1])},
+      reach);
+}
+
 std::vector<int> StandingNodes(const Body& body, const PosedBody& posed) {
   std::vector<int> standing;
   for (const char* name : {"left_ankle", "left_toe", "right_ankle", "right_toe"}) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/body/body.h"
+#include "model/body/hand_contact.h"
 #include "model/body/path.h"
 #include "model/body/pose.h"
 #include "model/body/tangle.h"
@@ -59,7 +60,8 @@ struct TemplatePosture {
   std::array<Body, 2> body;
   std::array<Pose, 2> pose;
   std::vector<Hold> holds;
-  std::array<std::vector<int>, 2> supports;  // nodes that may be planted
+  std::optional<std::vector<HandContact>> contacts;  // nothing: those found in the posture
+  std::array<std::vector<int>, 2> supports;          // nodes that may be planted
   std::array<RootReference, 2> root = {RootReference::kOwnClip, RootReference::kOwnClip};
   std::vector<TangleRequest> tangles;  // empty: find and reduce
   std::optional<TemplatePhoto> photo;
@@ -69,6 +71,9 @@ struct TemplatePosture {
 // World position of a hold's end.
 Vec3 HoldPosition(const HoldPoint& point, const std::array<Body, 2>& body,
                   const std::array<PosedBody, 2>& posed);
+
+// The posture's own list of contacts, or those found in it.
+std::vector<HandContact> HandContactsOf(const TemplatePosture& posture, double reach);
 
 // Ankles and toes that stand lower than 15 cm: the default of `supports`.
 std::vector<int> StandingNodes(const Body& body, const PosedBody& posed);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "model/geometry/so3.h"
+#include "solver/metrics/hand_metrics.h"
 
 namespace retarget::solver {
 namespace {
@@ -27,6 +28,7 @@ class Measurement {
     for (int f = 0; f < 2; ++f) {
       MeasureFeet(f);
       MeasureEdit(f);
+      out_.figure[f].holding_hand_gap_m = HoldingHandGap(subject_, f, frames_);
     }
     MeasureJerk();
     return out_;

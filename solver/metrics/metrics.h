@@ -32,6 +32,9 @@ struct FigureMetrics {
   int foot_drift_frame = -1, foot_drift_node = 0;
   double foot_speed_max = kNothingMeasured;               // m/s, inside contacts
   double foot_speed_over_1cm_percent = kNothingMeasured;  // of stance frames
+  // 95th percentile over the frames, of the hand that holds or touches and is furthest off
+  // (hand_metrics.h)
+  double holding_hand_gap_m = kNothingMeasured;
   std::vector<Swing> swings;
   std::vector<ContactEdge> edges;
   double pose_error_cm = kNothingMeasured;      // mean over nodes of no tagged path

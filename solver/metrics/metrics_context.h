@@ -39,6 +39,7 @@ struct MetricsContext {
   std::vector<TangleTarget> tangles;
   std::vector<Hold> holds;
   std::array<std::vector<Contact>, 2> contacts;
+  std::vector<HandContact> hand_contacts = {};
   std::array<bool, 2> carried = {};  // the template lets none of its feet stand
 };
 MetricsContext MetricsContextOf(const Scene& scene);

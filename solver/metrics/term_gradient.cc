@@ -52,10 +52,7 @@ class GradientSum {
       TermGradient pull{root ? "root_smoothness" : "smoothness", -1, VecX::Zero(size())};
       for (int t = first_; t < last_; ++t) {
         VecX g = VecX::Zero(problem_.scene().num_coordinates());
-        smoothness.AddGradient(unknowns_.edit, t, g);
-        for (int c = 0; c < g.size(); ++c) {
-          if (smoothness.IsRoot(c) != root) g[c] = 0;
-        }
+        smoothness.AddGradient(unknowns_.edit, t, root, g);
         Restrict(g, t, &pull);
       }
       if (!pull.gradient.isZero(0)) gradients_.push_back(std::move(pull));

@@ -98,8 +98,13 @@ void BandedSystem::AddFrame(int frame, double damping, const FrameBlock& block, 
       front->matrix.block(at, to, n_, kAnchorSize) +=
           block.anchor_coupling.middleRows(row, kAnchorSize).transpose();
     }
-    front->matrix.block(to, to, kAnchorSize, kAnchorSize).diagonal() +=
-        block.anchor_diagonal.segment<kAnchorSize>(row);
+    for (size_t other = 0; other < block.anchors.size(); ++other) {
+      const int column = Find(*front, num_frames_ + block.anchors[other]);
+      if (column > to) continue;  // the lower triangle
+      front->matrix.block(to, column, kAnchorSize, kAnchorSize) +=
+          block.anchor_hessian.block<kAnchorSize, kAnchorSize>(
+              row, kAnchorSize * static_cast<int>(other));
+    }
     front->matrix.block(to, to, kAnchorSize, kAnchorSize).diagonal().array() += kTinyPivot;
     front->rhs.segment(to, kAnchorSize) -= block.anchor_gradient.segment<kAnchorSize>(row);
     chain->anchor_gradient.col(block.anchors[k]) += block.anchor_gradient.segment<kAnchorSize>(row);

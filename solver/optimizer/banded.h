@@ -26,7 +26,7 @@ struct FrameBlock {
   // Anchors that stand in this frame: their rows of J^T J and J^T r.
   std::vector<int> anchors;
   MatX anchor_coupling;  // [2 anchors x n]
-  VecX anchor_diagonal;  // [2 anchors]
+  MatX anchor_hessian;   // [2 anchors x 2 anchors]
   VecX anchor_gradient;  // [2 anchors]
 };
 

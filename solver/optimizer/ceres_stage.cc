@@ -361,7 +361,8 @@ class CeresStage {
     if (slots == 0) return;
     std::vector<int> anchors;
     for (const Rows::AnchorEntry& e : rows.anchors()) {
-      if (anchors.empty() || anchors.back() != e.anchor) anchors.push_back(e.anchor);
+      const bool has = std::find(anchors.begin(), anchors.end(), e.anchor) != anchors.end();
+      if (!has) anchors.push_back(e.anchor);
     }
     std::vector<double*> parameters;
     for (int b = 0; b < scene_.num_coordinates() / kBlock; ++b) parameters.push_back(BlockOf(t, b));

@@ -1,5 +1,7 @@
 #include "solver/optimizer/normal_equations.h"
 
+#include <algorithm>
+
 #include "solver/optimizer/kernels.h"
 #include "solver/problem/terms/foot_swing.h"
 
@@ -22,23 +24,27 @@ void FillBlock(const Problem& problem, const Rows& rows, const MatX& edit, int t
   NormalEquations(rows, &block->hessian, &block->gradient);
   problem.smoothness().AddGradient(edit, t, block->gradient);
   block->anchors.clear();
-  for (const Rows::AnchorEntry& e : rows.anchors()) {
-    if (block->anchors.empty() || block->anchors.back() != e.anchor) {
-      block->anchors.push_back(e.anchor);
-    }
+  const std::vector<Rows::AnchorEntry>& entries = rows.anchors();
+  std::vector<long> row_of;  // of each entry in the anchors' matrices
+  for (const Rows::AnchorEntry& e : entries) {
+    auto at = std::find(block->anchors.begin(), block->anchors.end(), e.anchor);
+    if (at == block->anchors.end()) at = block->anchors.insert(at, e.anchor);
+    row_of.push_back(kAnchorSize * (at - block->anchors.begin()) + e.component);
   }
   const long m = kAnchorSize * static_cast<long>(block->anchors.size());
   block->anchor_coupling.setZero(m, block->gradient.size());
-  block->anchor_diagonal.setZero(m);
+  block->anchor_hessian.setZero(m, m);
   block->anchor_gradient.setZero(m);
-  long at = -1;  // a term adds the entries of one anchor together
-  for (size_t k = 0; k < rows.anchors().size(); ++k) {
-    const Rows::AnchorEntry& e = rows.anchors()[k];
-    if (k == 0 || e.anchor != rows.anchors()[k - 1].anchor) ++at;
-    const long row = kAnchorSize * at + e.component;
-    block->anchor_coupling.row(row) += e.value * rows.jacobian().row(e.row);
-    block->anchor_diagonal[row] += e.value * e.value;
-    block->anchor_gradient[row] += e.value * rows.residual()[static_cast<size_t>(e.row)];
+  for (size_t k = 0; k < entries.size(); ++k) {
+    const Rows::AnchorEntry& e = entries[k];
+    block->anchor_coupling.row(row_of[k]) += e.value * rows.jacobian().row(e.row);
+    block->anchor_gradient[row_of[k]] += e.value * rows.residual()[static_cast<size_t>(e.row)];
+    // The entries of a row stand together.
+    for (size_t l = k; l < entries.size() && entries[l].row == e.row; ++l) {
+      const double product = e.value * entries[l].value;
+      block->anchor_hessian(row_of[k], row_of[l]) += product;
+      if (l != k) block->anchor_hessian(row_of[l], row_of[k]) += product;
+    }
   }
 }
 

@@ -148,7 +148,7 @@ PoseSettings DefaultPoseSettings() {
   w.root_tracking = 3;
   w.hold = w.penetration = w.self_penetration = w.ground = 300;
   w.joint_limit = 100;
-  w.tangle = 0;
+  w.tangle = w.tangle_aim = w.hand_contact = 0;
   SolveSettings& solve = pose.settings.solve;
   solve.backend = Backend::kBanded;
   solve.threads = 1;

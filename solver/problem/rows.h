@@ -42,6 +42,7 @@ class Rows {
   // d r += gradient . d omega, for a turn of the joint alone, in the link's own axes
   // (R -> R exp d omega).
   void AddJointTurn(int row, int figure, int link, const Vec3& gradient);
+  // The entries of a row are added together, before the next row's.
   void AddAnchor(int row, int anchor, int component, double value);
   void AddCoordinate(int coordinate, double r, double derivative);
 

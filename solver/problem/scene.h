@@ -12,11 +12,13 @@
 
 namespace retarget::solver {
 
-// A tag with the value that its residual aims for (turns, of s GLI).
+// A tag with what is asked of it (turns, of s GLI): at least `target`, best `aim`, its value in the
+// template.
 struct TangleTarget {
   Tag tag;
   double sign = 1;
   double target = 0;
+  double aim = 0;
 };
 
 // A turn about the vertical through the root, and a horizontal shift.
@@ -32,6 +34,7 @@ struct Scene {
   int template_frame = 0;      // the frame that is laid into the template
   std::vector<TangleTarget> tangles;
   std::vector<Hold> holds;
+  std::vector<HandContact> hand_contacts;
   std::array<RootReference, 2> root = {RootReference::kOwnClip, RootReference::kOwnClip};
   std::array<std::vector<Contact>, 2> contacts;
   // Turns that the figures' own rigs cannot make, per frame; empty where they can make all.

@@ -10,22 +10,20 @@ constexpr double kStencil[3] = {1, -2, 1};
 }
 
 Smoothness::Smoothness(const Scene& scene, const Settings& settings) {
-  weight_.resize(scene.num_coordinates());
-  is_root_.assign(static_cast<size_t>(scene.num_coordinates()), false);
+  for (VecX& part : part_) part.setZero(scene.num_coordinates());
   const double rate = scene.fps() / 30;
   for (int f = 0; f < 2; ++f) {
     const int first = scene.FirstCoordinate(f);
     const Body& body = scene.body[f];
-    for (int c = 0; c < 6; ++c) {
-      weight_[first + c] = settings.weights.root_smoothness;
-      is_root_[static_cast<size_t>(first + c)] = true;
-    }
-    for (int l = 1; l < body.num_links(); ++l) {
+    part_[1].segment<6>(first).setConstant(settings.weights.root_smoothness);
+    for (int l = 0; l < body.num_links(); ++l) {
       const double share = JointShare(settings.joint_weights, body.links[l].name);
-      weight_.segment<3>(first + 3 + 3 * l).setConstant(settings.weights.smoothness * share);
+      part_[0].segment<3>(first + 3 + 3 * l).setConstant(settings.weights.smoothness * share);
     }
+    part_[0].segment<3>(first) = part_[0].segment<3>(first + 3);
   }
-  weight_ *= rate * rate;
+  for (VecX& part : part_) part *= rate * rate;
+  weight_ = (part_[0].array().square() + part_[1].array().square()).sqrt();
   const int n = scene.num_frames();
   for (int f = 0; f < 2; ++f) {
     if (scene.base[f].empty()) continue;
@@ -56,8 +54,8 @@ double Smoothness::HalfSquares(const MatX& edit, int first, int last, bool root)
   double sum = 0;
   for (int t = std::max(first, 1); t < std::min(last, n - 1); ++t) {
     for (int c = 0; c < weight_.size(); ++c) {
-      if (is_root_[static_cast<size_t>(c)] != root) continue;
-      const double r = weight_[c] * Difference(edit, t, c);
+      if (part_[root][c] == 0) continue;
+      const double r = part_[root][c] * Difference(edit, t, c);
       sum += r * r;
     }
   }
@@ -68,21 +66,30 @@ double Smoothness::Largest(const MatX& edit, int t, bool root) const {
   if (t < 1 || t + 1 >= edit.cols()) return 0;
   double largest = 0;
   for (int c = 0; c < weight_.size(); ++c) {
-    if (is_root_[static_cast<size_t>(c)] != root) continue;
-    const double r = weight_[c] * Difference(edit, t, c);
+    if (part_[root][c] == 0) continue;
+    const double r = part_[root][c] * Difference(edit, t, c);
     largest = std::max(largest, std::abs(r));
   }
   return largest;
 }
 
 void Smoothness::AddGradient(const MatX& edit, int t, Eigen::Ref<VecX> g) const {
+  AddGradient(edit, t, weight_, g);
+}
+
+void Smoothness::AddGradient(const MatX& edit, int t, bool root, Eigen::Ref<VecX> g) const {
+  AddGradient(edit, t, part_[root], g);
+}
+
+void Smoothness::AddGradient(const MatX& edit, int t, const VecX& weight,
+                             Eigen::Ref<VecX> g) const {
   const int n = static_cast<int>(edit.cols());
   for (int centre = std::max(t - 1, 1); centre <= std::min(t + 1, n - 2); ++centre) {
     const double own = kStencil[t - centre + 1];
-    g.array() += own * weight_.array().square() *
+    g.array() += own * weight.array().square() *
                  (edit.col(centre - 1) - 2 * edit.col(centre) + edit.col(centre + 1)).array();
     if (base_.size() == 0) continue;
-    g.array() += own * weight_.array().square() * base_.col(centre).array();
+    g.array() += own * weight.array().square() * base_.col(centre).array();
   }
 }
 

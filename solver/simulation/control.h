@@ -37,6 +37,10 @@ class Control {
              PhysicsWorld* world) const;
 
  private:
+  // Of the root's place over the floor, and of its height where the figure follows its own clip:
+  // the capture carries its own weight, and feet that sag with it would trip (N/m).
+  Vec3 RootStiffness(int figure) const;
+
   const Scene& scene_;
   const SimulationSettings& settings_;
   std::array<std::vector<double>, 2> stiffness_;  // per link (N m/rad)

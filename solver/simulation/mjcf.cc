@@ -6,10 +6,6 @@
 namespace retarget::solver {
 namespace {
 
-// Contact is possible where contype of one meets conaffinity of the other: the floor with all,
-// figure 0 with figure 1.
-constexpr int kFloorBit = 4;
-
 std::string Number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -39,7 +35,7 @@ std::string Capsule(const PhysicsFigure& figure, int index, int node,
   const Node& n = figure.body.nodes[node];
   const Vec3 from = AtRest(figure.body, n.parent, n.link);
   const bool point = (n.offset - from).norm() < 1e-6;  // MuJoCo refuses a capsule without length
-  std::string out = "<geom";
+  std::string out = "<geom" + Attribute("name", SegmentName(index, node));
   out += point ? Attribute("type", "sphere") + Attribute("pos", Numbers(n.offset))
                : Attribute("type", "capsule") +
                      Attribute("fromto", Numbers(from) + " " + Numbers(n.offset));
@@ -81,6 +77,10 @@ std::string TieElement(const EqualityConstraint& tie, int index, const PhysicsOp
 
 std::string LinkName(int figure, int link) {
   return std::to_string(figure) + "/" + std::to_string(link);
+}
+
+std::string SegmentName(int figure, int node) {
+  return std::to_string(figure) + "/" + std::to_string(node);
 }
 
 std::string TieName(int tie) { return "tie" + std::to_string(tie); }

@@ -34,14 +34,20 @@ struct EqualityConstraint {
 struct PhysicsFigure {
   Body body;
   // Taken off implicitly, so that stiff control stays stable: of every link's joint, [0] the root's
-  // turn (N m s/rad), and of the root's place (N s/m).
+  // turn (N m s/rad), and of the root's place over the floor and its height (N s/m).
   std::vector<double> damping;
-  double root_damping = 0;
+  double root_damping = 0, root_height_damping = 0;
 };
 
-// Names in the model: body "<figure>/<link>", joint the same, tie "tie<k>".
+// Names in the model: body "<figure>/<link>", joint the same, geom "<figure>/<node>" by the outer
+// node of its segment, tie "tie<k>".
 std::string LinkName(int figure, int link);
+std::string SegmentName(int figure, int node);
 std::string TieName(int tie);
+
+// Contact is possible where contype of one geom meets conaffinity of the other: the floor's bit
+// with all, figure 0 with figure 1.
+inline constexpr int kFloorBit = 4;
 
 // A free joint for each root and a ball joint for every other link, in links' order; one capsule
 // per segment with the segment's mass, rigid in the link that carries the segment's outer node.

@@ -105,6 +105,7 @@ PhysicsWorld::PhysicsWorld(const std::vector<PhysicsFigure>& figures,
     // MJCF knows one damping for all six of a free joint.
     mjtNum* damping = engine_->model->dof_damping + engine_->velocity[f][0];
     std::fill(damping, damping + 3, figures[f].root_damping);
+    damping[1] = figures[f].root_height_damping;
     std::fill(damping + 3, damping + 6, figures[f].damping[0]);
   }
   for (size_t k = 0; k < ties.size(); ++k) {
@@ -197,6 +198,13 @@ void PhysicsWorld::EnableEquality(int tie, const Vec3& point, const Vec3& to_poi
 }
 
 void PhysicsWorld::DisableEquality(int tie) { engine_->model->eq_active[engine_->tie[tie]] = 0; }
+
+void PhysicsWorld::SetFloorContact(int figure, int node, bool collides) {
+  const Engine& e = *engine_;
+  const int geom = mj_name2id(e.model.get(), mjOBJ_GEOM, SegmentName(figure, node).c_str());
+  int& bits = e.model->geom_conaffinity[geom];
+  bits = collides ? bits | kFloorBit : bits & ~kFloorBit;
+}
 
 void PhysicsWorld::BeginStep() {
   mju_zero(engine_->data->qfrc_applied, engine_->model->nv);

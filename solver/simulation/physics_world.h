@@ -40,6 +40,9 @@ class PhysicsWorld {
                       const Quat& relative = Quat::Identity());
   void DisableEquality(int tie);
 
+  // Whether a segment (by its outer node) collides with the floor; all do to begin with.
+  void SetFloorContact(int figure, int node, bool collides);
+
   void BeginStep();
   void AddForce(int figure, int link, const Vec3& world_point, const Vec3& force);  // N, world
   void AddTorque(int figure, int link, const Vec3& torque);       // N m, world, from outside

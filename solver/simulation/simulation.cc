@@ -16,7 +16,8 @@ namespace {
 // A root this share of the stature below its target: it stands at a little over half of the
 // stature, so the figure sits, kneels or lies.
 constexpr double kFallen = 0.35;
-constexpr double kRestTime = 0.1;  // s at rest before the clips begin: one slow step is none
+constexpr double kTouches = 0.002;  // m: feet of a clip no further from the floor touch it
+constexpr double kRestTime = 0.1;   // s at rest before the clips begin: one slow step is none
 
 class Simulator {
  public:
@@ -34,6 +35,11 @@ class Simulator {
                                       scene.posture.pose[f]);
     }
     simulated_.assign(static_cast<size_t>(scene.num_frames()), 0);
+    for (int f = 0; f < 2; ++f) {
+      for (const Pose& pose : scene.source[f].frames) {
+        source_[f].push_back(PoseBody(scene.body[f], pose).node);
+      }
+    }
   }
 
   SimulationResult Run() {
@@ -134,6 +140,24 @@ class Simulator {
     }
   }
 
+  // Swinging feet pass through the floor where the clip's do not touch it: a foot that the physics
+  // has a little lower than the clip would trip, which no performer did.
+  void FreeSwingingFeet(int t, int next) {
+    for (int f = 0; f < 2; ++f) {
+      const Body& body = scene_.body[f];
+      for (const char* name : {"left_ankle", "left_toe", "right_ankle", "right_toe"}) {
+        const int node = body.FindNode(name);
+        if (node < 0) continue;
+        const auto touches = [&](int frame) {
+          const std::vector<Vec3>& at = source_[f][frame];
+          const double lowest = std::min(at[node].y(), at[body.nodes[node].parent].y());
+          return lowest < body.nodes[node].radius + kTouches;
+        };
+        world_.SetFloorContact(f, node, touches(t) || touches(next));
+      }
+    }
+  }
+
   ControlTarget TargetAt(int t, int next, double u) const {
     return control_.TargetAt(t, next, u, world_);
   }
@@ -199,6 +223,7 @@ class Simulator {
       world_.UpdateKinematics();
       ReadState();
       PlantFeet(t);
+      FreeSwingingFeet(t, t + direction);
       for (int k = 0; k < steps_per_frame_; ++k) {
         if (!Step(TargetAt(t, t + direction, (k + 1.0) / steps_per_frame_))) {
           HoldFrom(t + direction, direction);
@@ -263,6 +288,7 @@ class Simulator {
   PhysicsWorld world_;
   TangleForce tangle_force_;
   std::array<PosedBody, 2> posed_;
+  std::array<std::vector<std::vector<Vec3>>, 2> source_;  // node places of the clips, per frame
   Stray stray_;
   std::vector<char> simulated_;  // per frame
   SimulationResult result_;

@@ -87,7 +87,7 @@ std::vector<TangleTarget> TangleTargets(const std::vector<Tag>& tags,
   for (const Tag& tag : tags) {
     const double sign = tag.tangle.gli < 0 ? -1 : 1;
     const double here = sign * GliOf(posture, posed, tag.tangle.a, tag.tangle.b);
-    held.push_back({tag, sign, std::min(kTangleThreshold + margin, std::max(here, 0.0))});
+    held.push_back({tag, sign, std::min(kTangleThreshold + margin, std::max(here, 0.0)), here});
   }
   return held;
 }
@@ -106,6 +106,7 @@ TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Bod
   Scene scene;
   // The value that counts is the template's own: on its bodies, not on these.
   scene.tangles = TangleTargets(tags, posture, settings.tangle.margin);
+  scene.hand_contacts = HandContactsOf(posture, settings.hand_contact.reach_m);
   TemplatePosture fitted = posture;
   TemplatePosture last = posture;
   for (int k = 1; k <= steps; ++k) {

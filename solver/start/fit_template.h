@@ -26,7 +26,8 @@ TemplateTangles FindTemplateTangles(const TemplatePosture& posture, const Tangle
 TemplatePosture FitTemplate(const TemplatePosture& posture, const std::array<Body, 2>& body,
                             const std::vector<Tag>& tags, const Settings& settings);
 
-// What the tags aim for: half a turn and the margin, never above the posture's own value.
+// What is asked of the tags: half a turn and the margin, never above the posture's own value, and
+// best that value.
 std::vector<TangleTarget> TangleTargets(const std::vector<Tag>& tags,
                                         const TemplatePosture& posture, double margin);
 

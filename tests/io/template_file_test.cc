@@ -48,6 +48,9 @@ tangles:
   - {a: [root, head_top], b: [left_toe, neck]}
 photo: {file: p.jpg, opacity: 0.25, scale: 2, offset: [3, -4]}
 camera: {eye: [1, 2, 3], target: [0, 1.5, 0], fov_deg: 35}
+contacts:
+  - from: {figure: b, node: right_hand}
+    to: {figure: a, node: chest, along: 0.25}
 )";
 
 TemplatePosture Example() { return ParseTemplate(kExample, "t.yaml"); }
@@ -444,6 +447,49 @@ TEST(TemplateFileTest, RefusesBadHoldsAndTheRest) {
       {"fov_deg: 35", "fov_deg: 180",
        "t.yaml:34: camera.fov_deg: expected a number from 1 to 179 (deg), found \"180\""},
       {"camera: {", "camera: ", "t.yaml:34: not valid YAML: "},
+  };
+  for (const BadEdit& edit : edits) ExpectRefused(edit);
+}
+
+TEST(TemplateFileTest, ContactsAreReadPlacedAndWritten) {
+  const TemplatePosture p = Example();
+  ASSERT_TRUE(p.contacts);
+  ASSERT_EQ(p.contacts->size(), 1u);
+  const HandContact& contact = p.contacts->front();
+  EXPECT_EQ(contact.figure, 1);
+  EXPECT_EQ(contact.hand, p.body[1].FindNode("right_hand"));
+  EXPECT_EQ(contact.to, p.body[0].FindNode("chest"));
+  EXPECT_EQ(contact.to_along, 0.25);
+  HandContact placed = contact;
+  PlaceHandContact(p.body, PosedFigures(p), &placed);
+  EXPECT_EQ(contact.along, placed.along) << "where the two are nearest";
+  const std::string text = FormatTemplate(p);
+  const TemplatePosture again = ParseTemplate(text, "again.yaml");
+  ASSERT_TRUE(again.contacts && again.contacts->size() == 1);
+  EXPECT_NEAR(again.contacts->front().along, contact.along, 1e-8);
+  EXPECT_EQ(again.contacts->front().to_along, 0.25);
+  // None at all is not the same as nothing said.
+  TemplatePosture none = p;
+  none.contacts->clear();
+  EXPECT_TRUE(ParseTemplate(FormatTemplate(none), "none.yaml").contacts->empty());
+  none.contacts.reset();
+  EXPECT_FALSE(ParseTemplate(FormatTemplate(none), "none.yaml").contacts);
+}
+
+TEST(TemplateFileTest, RefusesBadContacts) {
+  const BadEdit edits[] = {
+      {"node: right_hand}", "node: right_wrist}",
+       "t.yaml:36: contacts[0].from.node: unknown hand \"right_wrist\""},
+      {"to: {figure: a, node: chest, along: 0.25}", "to: {figure: b, node: chest}",
+       "t.yaml:37: contacts[0].to: expected a segment of the partner, found one of the hand's own"},
+      {"node: chest, along", "node: root, along",
+       "t.yaml:37: contacts[0].to: expected a node that ends a segment, found the root"},
+      {"along: 0.25", "along: 25",
+       "t.yaml:37: contacts[0].to.along: expected a number from 0 to 1, found \"25\""},
+      {"along: 0.25", "alng: 0.25",
+       "t.yaml:37: unknown key \"contacts[0].to.alng\", did you mean \"contacts[0].to.along\"?"},
+      {"    to: {figure: a, node: chest, along: 0.25}\n", "",
+       "t.yaml:36: missing key \"contacts[0].to\""},
   };
   for (const BadEdit& edit : edits) ExpectRefused(edit);
 }

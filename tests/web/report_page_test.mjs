@@ -248,6 +248,75 @@ test("frames in tables are jumps", async () => {
   await assertPlayersStandAt(page, frame);
 });
 
+// A scene in which all is well in the frames, and a tag is lost and a hold open between two.
+test("what is missed between frames is in the curves, on the scrub bar and in the players", async () => {
+  const path = join(scratch, "between.html");
+  const missing = structuredClone(series);
+  const told = structuredClone(report);
+  const [lost, open_] = [17, 40];
+  missing.result.between.tangles[0][lost] = 0.3;
+  missing.result.between.hold_cm[0][open_] = 4;
+  for (const r of told.requirements) {
+    r.met = !(r.kind === "tangle" && r.item === 0) && !(r.kind === "hold" && r.item === 0);
+  }
+  writeFileSync(
+    path,
+    html
+      .replace(element("series"), () => JSON.stringify(missing))
+      .replace(element("report"), () => JSON.stringify(told)),
+  );
+  const { page, noise } = await open({ path });
+  const marks = page.locator(".miss");
+  assert.equal(await marks.count(), 2);
+  const mark = marks.first();
+  assert.match(await mark.getAttribute("title"), /between frames 17 and 18/);
+  const [at, bar] = [await mark.boundingBox(), await page.locator(".track").boundingBox()];
+  const expected = bar.x + 6 + ((bar.width - 12) * (lost + 0.5)) / last;
+  assert.ok(Math.abs(at.x + at.width / 2 - expected) < 1.5, `${at.x} for ${expected}`);
+  // The track is dark there and nowhere else.
+  const dark = await page.evaluate(() => {
+    const canvas = document.querySelector(".track");
+    const rows = Math.round(canvas.clientHeight / 9);
+    const y = Math.round((canvas.height * 2.25) / rows); // result, upper half
+    const { data } = canvas.getContext("2d").getImageData(0, y, canvas.width, 1);
+    const colour = (x) => [...data.slice(4 * x, 4 * x + 3)].join();
+    const held = colour(Math.round(canvas.width / 2));
+    const inside = (6 * canvas.width) / canvas.clientWidth;
+    const out = [];
+    for (let x = Math.ceil(inside) + 1; x < canvas.width - inside - 1; ++x) {
+      if (colour(x) !== held) out.push(((x + 0.5) * canvas.clientWidth) / canvas.width);
+    }
+    return out;
+  });
+  assert.ok(dark.length > 0);
+  for (const x of dark) assert.ok(Math.abs(bar.x + x - expected) < 8, `${x}`);
+  // There the players stand half way, and the words are those of that instant.
+  await mark.click();
+  assert.match(await page.textContent(".counter"), /^between 17 and 18 /);
+  assert.match(
+    await page.textContent(".panel[data-variant=result] .readout"),
+    /lost: tag 1 \(0\.30\)/,
+  );
+  const [p, q] = [17, 18].map((frame) => glb.result.position("a/root", frame));
+  const got = await page.evaluate(() =>
+    window.retargetReport.playerNodePosition("result", "a/root"),
+  );
+  assert.ok(Math.hypot(...p.map((x, c) => 0.5 * (x + q[c]) - got[c])) < 1e-5);
+  const key = page.locator('figure[data-plot="Tag 1: s GLI"] .key span', { hasText: "result" });
+  assert.equal(numberIn(await key.locator("b").textContent()), 0.3);
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await frameOf(page), 17);
+  assert.match(await page.textContent(".counter"), /^frame 17 /);
+  assert.match(await page.textContent(".panel[data-variant=result] .readout"), /tangled/);
+  await mark.click();
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await frameOf(page), 18);
+  await marks.last().click();
+  assert.match(await page.textContent(".counter"), /^between 40 and 41 /);
+  assert.deepEqual(noise, []);
+  await page.close();
+});
+
 test("without a baseline a sentence stands in its place", async () => {
   const path = join(scratch, "no_baseline.html");
   const without = { ...series, baseline: null };

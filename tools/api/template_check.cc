@@ -55,6 +55,7 @@ TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& sett
   scene.body = posture.body;
   scene.tangles = solver::TangleTargets(check.tangles.tags, posture, settings.tangle.margin);
   scene.holds = posture.holds;
+  scene.hand_contacts = HandContactsOf(posture, settings.hand_contact.reach_m);
   for (int f = 0; f < 2; ++f) scene.source[f].frames = {posture.pose[f]};
   const solver::MetricsContext subject = solver::MetricsContextOf(scene);
   const solver::MotionView view = solver::ViewOf(scene.body, scene.source);

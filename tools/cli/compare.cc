@@ -100,8 +100,33 @@ report::Json DifferencesOf(const std::vector<Run>& runs) {
   return out;
 }
 
-// What makes the figures of the runs hard to compare.
-std::vector<std::string> NotesOn(const report::Json& differences) {
+// A term that makes up no more of the cost had nothing to do.
+constexpr double kInactive = 1e-6;
+
+bool HadNothingToDo(const Run& run, const std::string& term) {
+  const report::Json cost = TermCostOf(run, term, "cost");
+  return cost.is_number() &&
+         cost.get<double>() <= kInactive * run.report.at("solve").at("cost").get<double>();
+}
+
+// Weights that differ, of terms that had nothing to do in any of the runs: they make no difference.
+std::vector<std::string> IdleWeights(const std::vector<Run>& runs,
+                                     const report::Json& differences) {
+  std::vector<std::string> notes;
+  for (const std::string& term : TermsOf(runs)) {
+    if (!differences.contains("weights." + term)) continue;
+    if (!std::all_of(runs.begin(), runs.end(),
+                     [&](const Run& run) { return HadNothingToDo(run, term); })) {
+      continue;
+    }
+    notes.push_back("weights." + term +
+                    " had nothing to do: what it asks for is kept in every run at no cost");
+  }
+  return notes;
+}
+
+// What makes the figures of the runs hard to compare, and which differences make none.
+std::vector<std::string> NotesOn(const std::vector<Run>& runs, const report::Json& differences) {
   const std::pair<const char*, const char*> kinds[] = {{"clip_a.hash", "clip a"},
                                                        {"clip_b.hash", "clip b"},
                                                        {"template.hash", "template"},
@@ -114,15 +139,18 @@ std::vector<std::string> NotesOn(const report::Json& differences) {
   for (const auto& [key, name] : kinds) {
     if (differences.contains(key)) what += (what.empty() ? "" : ", ") + std::string(name);
   }
-  if (what.empty()) return {};
-  return {"the runs are not of one scene; they differ in: " + what};
+  std::vector<std::string> notes = IdleWeights(runs, differences);
+  if (!what.empty()) {
+    notes.insert(notes.begin(), "the runs are not of one scene; they differ in: " + what);
+  }
+  return notes;
 }
 
 report::Json ComparisonJson(const std::vector<Run>& runs, const report::Json& differences) {
   report::Json out = {{"runs", report::Json::array()},
                       {"baseline", At(runs[0].report, "/metrics/baseline")},
                       {"differences", differences},
-                      {"notes", NotesOn(differences)}};
+                      {"notes", NotesOn(runs, differences)}};
   for (const Run& run : runs) {
     const report::Json& solve = run.report.at("solve");
     out["runs"].push_back({{"folder", run.folder},
@@ -197,7 +225,7 @@ std::string ComparisonText(const std::vector<Run>& runs, const report::Json& dif
   AddMetrics(runs, &table);
   AddSolve(runs, &table);
   std::string out;
-  for (const std::string& note : NotesOn(differences)) out += "note: " + note + "\n";
+  for (const std::string& note : NotesOn(runs, differences)) out += "note: " + note + "\n";
   out += table.Format();
   if (out.find('*') != std::string::npos) out += report::kStarNote;
   if (runs.size() == 1) return out;

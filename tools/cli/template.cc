@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/files.h"
 #include "io/settings_file.h"
@@ -52,9 +53,34 @@ std::array<std::vector<Vec3>, 2> PositionsFromJson(const report::Json& json,
 struct Found {
   std::array<Body, 2> body;
   solver::TemplateTangles tangles;
+  std::vector<HandContact> contacts;
 };
 
-Found FindIn(const std::string& path, const TangleSettings& settings) {
+report::Json ContactsJson(const std::array<Body, 2>& body,
+                          const std::vector<HandContact>& contacts) {
+  report::Json out = report::Json::array();
+  for (const HandContact& c : contacts) {
+    const auto end = [&](int f, int node, double along) {
+      return report::Json{
+          {"figure", report::kFigure[f]}, {"node", body[f].nodes[node].name}, {"along", along}};
+    };
+    out.push_back(
+        {{"from", end(c.figure, c.hand, c.along)}, {"to", end(1 - c.figure, c.to, c.to_along)}});
+  }
+  return out;
+}
+
+void PrintContacts(const std::array<Body, 2>& body, const std::vector<HandContact>& contacts) {
+  for (const HandContact& c : contacts) {
+    const int g = 1 - c.figure;
+    fmt::print("contact {} {} ({:.2f}) on {} {} ({:.2f})\n", report::kFigure[c.figure],
+               body[c.figure].nodes[c.hand].name, c.along, report::kFigure[g],
+               body[g].nodes[c.to].name, c.to_along);
+  }
+}
+
+Found FindIn(const std::string& path, const Settings& all) {
+  const TangleSettings& settings = all.tangle;
   const std::string text = io::ReadFile(path);
   const size_t first = text.find_first_not_of(" \t\r\n");
   Found found;
@@ -62,6 +88,7 @@ Found FindIn(const std::string& path, const TangleSettings& settings) {
     const TemplatePosture posture = io::ParseTemplate(text, path);
     found.body = posture.body;
     found.tangles = solver::FindTemplateTangles(posture, settings);
+    found.contacts = HandContactsOf(posture, all.hand_contact.reach_m);
     return found;
   }
   report::Json json;
@@ -78,13 +105,14 @@ Found FindIn(const std::string& path, const TangleSettings& settings) {
   found.tangles.literal = FindTangles(body, body, table);
   found.tangles.tags =
       ReduceTangles(body, a, body, b, found.tangles.literal, table, solver::ReductionOf(settings));
+  found.contacts = FindHandContacts(found.body, {a, b}, all.hand_contact.reach_m);
   return found;
 }
 
 }  // namespace
 
 int RunTangles(const std::string& path, const SettingsOptions& settings, bool json) {
-  const Found found = FindIn(path, SettingsOf(settings).tangle);
+  const Found found = FindIn(path, SettingsOf(settings));
   const Body &a = found.body[0], &b = found.body[1];
   if (json) {
     report::Json out = {{"literal", report::Json::array()}, {"tags", report::Json::array()}};
@@ -96,6 +124,7 @@ int RunTangles(const std::string& path, const SettingsOptions& settings, bool js
       entry["group_size"] = tag.group_size;
       out["tags"].push_back(entry);
     }
+    out["contacts"] = ContactsJson(found.body, found.contacts);
     fmt::print("{}\n", out.dump(1));
     return kDone;
   }
@@ -108,6 +137,7 @@ int RunTangles(const std::string& path, const SettingsOptions& settings, bool js
     fmt::print("  {:<64} {:+.4f}  rho {:.3f}  stands for {}\n", TangleText(a, b, tag.tangle),
                tag.tangle.gli, tag.rho, tag.group_size);
   }
+  PrintContacts(found.body, found.contacts);
   return kDone;
 }
 
@@ -119,6 +149,8 @@ int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, b
   const std::vector<solver::RequirementCheck>& checks = check.checks;
   const std::vector<std::string>& warnings = check.warnings;
   const std::array<Body, 2>& bodies = posture.body;
+  const std::vector<HandContact> contacts =
+      HandContactsOf(posture, SettingsOf(settings).hand_contact.reach_m);
   const bool met = check.met();
   if (json) {
     report::Json out = {{"name", posture.name},
@@ -130,6 +162,7 @@ int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, b
       out["tags"].push_back(api::TangleJson(bodies[0], bodies[1], tag.tangle));
       out["tags"].back()["rho"] = tag.rho;
     }
+    out["contacts"] = ContactsJson(bodies, contacts);
     fmt::print("{}\n", out.dump(1));
     return met ? kDone : kMissed;
   }
@@ -145,6 +178,12 @@ int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, b
   for (const Tag& tag : tangles.tags) {
     fmt::print("tag {}: {:+.3f}, rho {:.3f}\n", TangleText(bodies[0], bodies[1], tag.tangle),
                tag.tangle.gli, tag.rho);
+  }
+  PrintContacts(bodies, contacts);
+  for (const auto& figure : metrics.figure) {
+    if (std::isnan(figure.holding_hand_gap_m)) continue;
+    fmt::print("holding hands of {}: {:.1f} cm off what they hold\n",
+               report::kFigure[&figure - metrics.figure.data()], 100 * figure.holding_hand_gap_m);
   }
   for (size_t k = 0; k < metrics.hold_m.size(); ++k) {
     fmt::print("hold {}: {:.1f} cm\n", k + 1, 100 * metrics.hold_m[k]);

@@ -60,7 +60,7 @@ void ReflectPoint(const Body& body, HoldPoint* point) {
   point->offset = Reflected(point->offset);
 }
 
-// Body, joints, supports, tangles and pinned nodes of one figure; holds are the caller's.
+// Body, joints, supports, tangles, contacts and pinned nodes of one figure; holds are the caller's.
 void ReflectOwn(int figure, PoseState* state) {
   TemplatePosture& posture = state->posture;
   Body& body = posture.body[figure];
@@ -69,6 +69,12 @@ void ReflectOwn(int figure, PoseState* state) {
   for (TangleRequest& tangle : posture.tangles) {
     Path& path = figure == 0 ? tangle.a : tangle.b;
     path = Reflected(body, path);
+  }
+  if (posture.contacts) {
+    for (HandContact& contact : *posture.contacts) {
+      int& node = contact.figure == figure ? contact.hand : contact.to;
+      node = OtherNode(body, node);
+    }
   }
   for (PinnedNode& pin : state->pins) {
     if (pin.figure == figure) pin.node = OtherNode(body, pin.node);
@@ -130,6 +136,9 @@ PoseState Swapped(const PoseState& state) {
     }
   }
   for (TangleRequest& tangle : posture.tangles) std::swap(tangle.a, tangle.b);
+  if (posture.contacts) {
+    for (HandContact& contact : *posture.contacts) contact.figure = 1 - contact.figure;
+  }
   for (PinnedNode& pin : out.pins) pin.figure = 1 - pin.figure;
   return out;
 }

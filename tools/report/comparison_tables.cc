@@ -79,6 +79,7 @@ std::vector<MetricRow> MetricRows() {
     add("foot travel near the floor,", "cm", 1, "near_floor_travel_m", 100, Kind::kFootTravel);
     add("foot acceleration at contact edges,", "m/s²", 1, "edge_acceleration_m_s2", 1,
         Kind::kFootAcceleration);
+    add("gap of holding hands,", "cm", 1, "holding_hand_gap_m", 100);
     add("below the floor,", "cm", 2, "floor_m", 100, Kind::kFloor);
     add("self-penetration,", "cm", 2, "self_penetration_m", 100);
     add("pose error,", "cm", 2, "pose_error_cm", 1);

@@ -57,6 +57,7 @@ void AddFigureRows(int figure, std::vector<MetricRow>* rows) {
   add("foot travel near the floor", "cm", Kind::kFootTravel, 100, "near_floor_travel_m");
   add("foot acceleration at contact edges", "m/s^2", Kind::kFootAcceleration, 1,
       "edge_acceleration_m_s2");
+  add("gap of holding hands", "cm", {}, 100, "holding_hand_gap_m");
   add("below the floor", "cm", Kind::kFloor, 100, "floor_m");
   add("self-penetration", "cm", {}, 100, "self_penetration_m");
   add("pose error", "cm", {}, 1, "pose_error_cm");

@@ -35,11 +35,22 @@ std::vector<double> Larger(std::vector<double> one, const std::vector<double>& o
   return one.empty() ? other : one;
 }
 
+// A frame's value, the worst of the instants up to the next frame, the next frame's value, ...
+std::vector<double> Interleaved(const std::vector<double>& at, const std::vector<double>& between) {
+  std::vector<double> out;
+  for (size_t t = 0; t < at.size(); ++t) {
+    out.push_back(at[t]);
+    if (t < between.size()) out.push_back(between[t]);
+  }
+  return out;
+}
+
 // A plot of one line per motion; `curve` takes the values out of a motion's series.
 template <typename Curve>
 std::string PlotOf(const Json& series, const std::string& title, const std::string& unit,
-                   double limit, const Curve& curve) {
+                   double limit, const Curve& curve, double step = 1) {
   SvgPlot plot;
+  plot.step_x = step;
   plot.title = title;
   plot.unit = unit;
   plot.limit = limit;
@@ -48,6 +59,15 @@ std::string PlotOf(const Json& series, const std::string& title, const std::stri
     if (!of.is_null()) plot.lines.push_back({motion.label, motion.colour, motion.dash, curve(of)});
   }
   return FormatSvg(plot);
+}
+
+// The same of what is measured between frames, too.
+template <typename Curve>
+std::string InstantsPlotOf(const Json& series, const std::string& title, const std::string& unit,
+                           double limit, const Curve& curve) {
+  return PlotOf(
+      series, title, unit, limit,
+      [&](const Json& m) { return Interleaved(curve(m), curve(At(m, "/between"))); }, 0.5);
 }
 
 std::string CostPlot(const Json& report) {
@@ -69,9 +89,10 @@ std::string PlotsHtml(const Json& report, const Json& series) {
   std::string out;
   const size_t tags = At(series, "/result/tangles").size();
   for (size_t k = 0; k < tags; ++k) {
-    out += PlotOf(series, fmt::format("Tag {}: s GLI", k + 1), "turns, by frame",
-                  limit(Kind::kTangle, 1, static_cast<int>(k)),
-                  [k](const Json& m) { return Numbers(At(m, fmt::format("/tangles/{}", k))); });
+    out += InstantsPlotOf(series, fmt::format("Tag {}: s GLI", k + 1), "turns, by frame",
+                          limit(Kind::kTangle, 1, static_cast<int>(k)), [k](const Json& m) {
+                            return Numbers(At(m, fmt::format("/tangles/{}", k)));
+                          });
   }
   const auto both = [](const char* key) {
     const std::string at = std::string("/") + key;
@@ -79,22 +100,23 @@ std::string PlotsHtml(const Json& report, const Json& series) {
       return Larger(Numbers(At(m, at + "/a")), Numbers(At(m, at + "/b")));
     };
   };
-  out += PlotOf(series, "Penetration between the bodies", "cm, by frame",
-                limit(Kind::kPenetration, 100),
-                [](const Json& m) { return Numbers(At(m, "/penetration_cm")); });
+  out += InstantsPlotOf(series, "Penetration between the bodies", "cm, by frame",
+                        limit(Kind::kPenetration, 100),
+                        [](const Json& m) { return Numbers(At(m, "/penetration_cm")); });
   if (!At(series, "/result/hold_cm").empty()) {
-    out += PlotOf(series, "Hold error", "cm, by frame", limit(Kind::kHold, 100), [](const Json& m) {
-      std::vector<double> largest;
-      for (const Json& hold : At(m, "/hold_cm")) {
-        largest = Larger(largest, Numbers(hold));
-      }
-      return largest;
-    });
+    out += InstantsPlotOf(series, "Hold error", "cm, by frame", limit(Kind::kHold, 100),
+                          [](const Json& m) {
+                            std::vector<double> largest;
+                            for (const Json& hold : At(m, "/hold_cm")) {
+                              largest = Larger(largest, Numbers(hold));
+                            }
+                            return largest;
+                          });
   }
   out += PlotOf(series, "Speed of planted feet", "cm/s, larger of a and b, by frame", std::nan(""),
                 both("foot_speed_cm_s"));
-  out +=
-      PlotOf(series, "Below the floor", "cm, by frame", limit(Kind::kFloor, 100), both("floor_cm"));
+  out += InstantsPlotOf(series, "Below the floor", "cm, by frame", limit(Kind::kFloor, 100),
+                        both("floor_cm"));
   out += PlotOf(series, "Penetration of a body with itself", "cm, by frame", std::nan(""),
                 both("self_penetration_cm"));
   return out + CostPlot(report);

@@ -45,6 +45,7 @@ Json FigureJson(const Body& body, const solver::FigureMetrics& m) {
       {"edge_acceleration_source_m_s2",
        worst_of(edge, [](const solver::ContactEdge& e) { return e.source; })},
       {"edges_over_1p5_percent", EdgesOver(m)},
+      {"holding_hand_gap_m", m.holding_hand_gap_m},
       {"pose_error_cm", m.pose_error_cm},
       {"joint_edit_deg", m.joint_edit_deg},
       {"jerk_m_s3", m.jerk},

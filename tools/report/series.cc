@@ -12,11 +12,13 @@ Json Rounded(double value, int digits) {
   return std::round(value * scale) / scale + 0.0;  // + 0.0 makes -0 a 0
 }
 
-// [frames] of value(instant).
+using Instants = std::vector<solver::InstantMetrics>;
+
+// [instants] of value(instant).
 template <typename Value>
-Json Curve(const solver::FrameMetrics& series, int digits, const Value& value) {
+Json Curve(const Instants& instants, int digits, const Value& value) {
   Json out = Json::array();
-  for (const solver::InstantMetrics& at : series.at) out.push_back(Rounded(value(at), digits));
+  for (const solver::InstantMetrics& at : instants) out.push_back(Rounded(value(at), digits));
   return out;
 }
 
@@ -26,9 +28,9 @@ Json Curve(const std::vector<double>& values, double scale, int digits) {
   return out;
 }
 
-Json PenetrationPairs(const solver::MetricsContext& subject, const solver::FrameMetrics& series) {
+Json PenetrationPairs(const solver::MetricsContext& subject, const Instants& instants) {
   Json out = Json::array();
-  for (const solver::InstantMetrics& at : series.at) {
+  for (const solver::InstantMetrics& at : instants) {
     if (at.penetration.depth_m <= 0) {
       out.push_back(nullptr);
       continue;
@@ -47,31 +49,40 @@ Json Tracking(const Body& body, const std::vector<std::vector<double>>& turn_deg
   return {{"joints", joints}, {"values", values}};
 }
 
-Json MotionJson(const solver::MetricsContext& subject, const solver::FrameMetrics& series,
-                bool is_source) {
+// What is measured in the frames and at the instants between them alike.
+Json InstantsJson(const solver::MetricsContext& subject, const Instants& instants) {
   Json tangles = Json::array(), holds = Json::array();
   for (size_t k = 0; k < subject.tangles.size(); ++k) {
     tangles.push_back(
-        Curve(series, 4, [k](const solver::InstantMetrics& at) { return at.gli[k]; }));
+        Curve(instants, 4, [k](const solver::InstantMetrics& at) { return at.gli[k]; }));
   }
   for (size_t k = 0; k < subject.holds.size(); ++k) {
     holds.push_back(
-        Curve(series, 3, [k](const solver::InstantMetrics& at) { return 100 * at.hold_m[k]; }));
+        Curve(instants, 3, [k](const solver::InstantMetrics& at) { return 100 * at.hold_m[k]; }));
   }
   Json out = {{"tangles", tangles},
-              {"penetration_cm", Curve(series, 3,
+              {"penetration_cm", Curve(instants, 3,
                                        [](const solver::InstantMetrics& at) {
                                          return 100 * at.penetration.depth_m;
                                        })},
-              {"penetration_pair", PenetrationPairs(subject, series)},
+              {"penetration_pair", PenetrationPairs(subject, instants)},
               {"hold_cm", holds}};
   for (int f = 0; f < 2; ++f) {
+    out["floor_cm"][kFigure[f]] = Curve(
+        instants, 3, [f](const solver::InstantMetrics& at) { return 100 * at.figure[f].floor_m; });
+  }
+  return out;
+}
+
+Json MotionJson(const solver::MetricsContext& subject, const solver::FrameMetrics& series,
+                bool is_source) {
+  Json out = InstantsJson(subject, series.at);
+  out["between"] = InstantsJson(subject, series.between);
+  for (int f = 0; f < 2; ++f) {
     const char* who = kFigure[f];
-    out["self_penetration_cm"][who] = Curve(series, 3, [f](const solver::InstantMetrics& at) {
+    out["self_penetration_cm"][who] = Curve(series.at, 3, [f](const solver::InstantMetrics& at) {
       return 100 * at.figure[f].self_penetration.depth_m;
     });
-    out["floor_cm"][who] = Curve(
-        series, 3, [f](const solver::InstantMetrics& at) { return 100 * at.figure[f].floor_m; });
     out["foot_speed_cm_s"][who] = Curve(series.foot_speed[f], 100, 3);
     out["tracking_deg"][who] =
         is_source ? Json(nullptr) : Tracking(subject.body[f], series.tracking_deg[f]);

@@ -156,6 +156,16 @@ Json SubjectJson(const solver::MetricsContext& subject, const solver::Metrics& r
                             {"largest_error_m", result.hold_m[k]},
                             {"frame", result.hold_frame[k]}});
   }
+  out["hand_contacts"] = Json::array();
+  for (const HandContact& c : subject.hand_contacts) {
+    const auto end = [&](int figure, int node, double along) {
+      return Json{{"figure", kFigure[figure]},
+                  {"node", subject.body[figure].nodes[node].name},
+                  {"along", along}};
+    };
+    out["hand_contacts"].push_back(
+        {{"from", end(c.figure, c.hand, c.along)}, {"to", end(1 - c.figure, c.to, c.to_along)}});
+  }
   return out;
 }
 
@@ -192,6 +202,18 @@ solver::MetricsContext SubjectFromJson(const Json& report, const std::string& pa
       hold.from = HoldPointFromJson(subject, h.at("from"));
       hold.to = HoldPointFromJson(subject, h.at("to"));
       subject.holds.push_back(hold);
+    }
+    if (report.contains("hand_contacts")) {  // reports of before have none
+      for (const Json& j : report.at("hand_contacts")) {
+        const Json &from = j.at("from"), &to = j.at("to");
+        HandContact c;
+        c.figure = from.at("figure") == "a" ? 0 : 1;
+        c.hand = NodeNamed(subject.body[c.figure], from.at("node"));
+        c.to = NodeNamed(subject.body[1 - c.figure], to.at("node"));
+        c.along = from.at("along");
+        c.to_along = to.at("along");
+        subject.hand_contacts.push_back(c);
+      }
     }
     return subject;
   } catch (const nlohmann::json::exception& error) {

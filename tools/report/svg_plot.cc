@@ -13,8 +13,8 @@ namespace {
 constexpr double kWidth = 620, kHeight = 180, kLeft = 46, kRight = 8, kTop = 8, kBottom = 22;
 
 struct Axes {
-  double low = 0, high = 1;  // of y, as drawn
-  double first = 0, last = 1;
+  double low = 0, high = 1;              // of y, as drawn
+  double first = 0, last = 1, step = 1;  // of x
   bool logarithmic = false;
 
   double Drawn(double y) const { return logarithmic ? std::log10(std::max(y, 1e-300)) : y; }
@@ -43,7 +43,8 @@ Axes AxesOf(const SvgPlot& plot) {
   if (least > most) least = most = 0;
   if (std::isfinite(plot.limit)) most = std::max(most, plot.limit);
   axes.first = plot.first_x;
-  axes.last = plot.first_x + static_cast<double>(count - 1);
+  axes.step = plot.step_x;
+  axes.last = plot.first_x + plot.step_x * static_cast<double>(count - 1);
   if (plot.logarithmic) {
     axes.low = std::floor(axes.Drawn(std::max(least, 1e-4 * most)));
     axes.high = std::max(axes.low + 1, std::ceil(axes.Drawn(most)));
@@ -110,7 +111,8 @@ std::string LineSvg(const Axes& axes, const SvgLine& line) {
       finish();
       continue;
     }
-    points += fmt::format("{:.1f},{:.1f} ", axes.X(axes.first + static_cast<double>(k)), axes.Y(v));
+    points += fmt::format("{:.1f},{:.1f} ", axes.X(axes.first + axes.step * static_cast<double>(k)),
+                          axes.Y(v));
   }
   finish();
   return out;

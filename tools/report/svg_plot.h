@@ -14,7 +14,8 @@ struct SvgLine {
 struct SvgPlot {
   std::string title, unit;
   std::vector<SvgLine> lines;
-  double first_x = 0;  // of the first value; the others follow in steps of 1
+  double first_x = 0;  // of the first value
+  double step_x = 1;   // to the next
   double limit;        // a dashed line; NaN for none
   bool logarithmic = false;
 };

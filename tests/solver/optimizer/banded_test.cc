@@ -18,6 +18,7 @@ struct RandomSystem {
   std::vector<MatX> jacobian;  // [rows x n] per frame
   std::vector<VecX> residual;
   std::vector<std::vector<int>> standing;
+  std::vector<MatX> mix;  // M of each frame
 
   RandomSystem(int frames_, int n_, std::vector<AnchorSpan> spans_)
       : frames(frames_), n(n_), spans(std::move(spans_)) {
@@ -32,19 +33,22 @@ struct RandomSystem {
       jacobian.push_back(
           RandomMatrix(n + 3 + kAnchorSize * static_cast<long>(here.size()), n, &random));
       residual.push_back(RandomMatrix(jacobian.back().rows(), 1, &random));
+      const long m = kAnchorSize * static_cast<long>(here.size());
+      mix.push_back(MatX::Identity(m, m) + 0.4 * RandomMatrix(m, m, &random));
     }
   }
 
-  // The last rows of a frame are r = J x - anchor, three per standing anchor.
+  // The last rows of a frame are r = J x - M anchors, two per standing anchor: a foot between two
+  // footprints reads both.
   void Assemble(int t, FrameBlock* block) const {
     const MatX& j = jacobian[t];
     block->hessian = (j.transpose() * j).triangularView<Eigen::Lower>();
     block->gradient = j.transpose() * residual[t];
     block->anchors = standing[t];
     const long m = kAnchorSize * static_cast<long>(standing[t].size());
-    block->anchor_coupling = -j.bottomRows(m);
-    block->anchor_diagonal = VecX::Ones(m);
-    block->anchor_gradient = -residual[t].tail(m);
+    block->anchor_coupling = -mix[t].transpose() * j.bottomRows(m);
+    block->anchor_hessian = mix[t].transpose() * mix[t];
+    block->anchor_gradient = -mix[t].transpose() * residual[t].tail(m);
   }
 
   VecX DenseSolve(const VecX& damping) const {
@@ -56,8 +60,9 @@ struct RandomSystem {
       j.middleCols(t * n, n) = jacobian[t];
       const long m = kAnchorSize * static_cast<long>(standing[t].size());
       for (long k = 0; k < m; ++k) {
-        j(jacobian[t].rows() - m + k,
-          frames * n + kAnchorSize * standing[t][k / kAnchorSize] + k % kAnchorSize) = -1;
+        j.block(jacobian[t].rows() - m,
+                frames * n + kAnchorSize * standing[t][k / kAnchorSize] + k % kAnchorSize, m, 1) =
+            -mix[t].col(k);
       }
       h += j.transpose() * j;
       g += j.transpose() * residual[t];

@@ -100,8 +100,13 @@ Unknowns RandomEdit(const Scene& scene, double size, unsigned seed) {
 
 TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
   std::map<std::string, Checked> checked;
-  for (const std::string roots : {"own", "follow", "drift"}) {
+  for (const std::string roots : {"own", "follow", "drift", "steps"}) {
     Scene scene = SmallScene(4, 0.2, roots == "follow");
+    for (int f = 0; f < 2 && roots == "steps"; ++f) {  // from footprint to footprint
+      const int ankle = scene.body[f].FindNode("right_ankle"),
+                toe = scene.body[f].FindNode("right_toe");
+      scene.contacts[f] = {{ankle, 0, 0}, {ankle, 3, 3}, {toe, 0, 0}, {toe, 2, 3}};
+    }
     for (int t = 0; t < 4 && roots == "drift"; ++t) {  // b walks and turns away from a
       Pose& b = scene.source[1].frames[t];
       b.root_position += Vec3(0.1 * t, 0, 0.2 * t);
@@ -114,6 +119,15 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
       scene.locked_axes[f].assign(
           4, {{elbow, Vec3(0.6, 0.8, 0)}, {elbow, Vec3(0, 0, 1)}, {ankle, Vec3(1, 2, -2) / 3}});
     }
+    for (HandContact c : FindHandContacts(scene.body,
+                                          {PoseBody(scene.body[0], scene.posture.pose[0]),
+                                           PoseBody(scene.body[1], scene.posture.pose[1])},
+                                          1)) {
+      scene.hand_contacts.push_back(c);
+      c.along = c.to_along = 0.3;
+      scene.hand_contacts.push_back(c);
+    }
+    ASSERT_EQ(scene.hand_contacts.size(), 8u);
     const Problem problem(scene, {});
     for (unsigned seed = 0; seed < 11; ++seed) {
       const Unknowns u = RandomEdit(scene, seed == 0 ? 0 : 0.25, seed);
@@ -124,16 +138,16 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
       }
     }
   }
-  for (const auto& term :
-       {"pose_tracking", "root_tracking", "foot_lock", "foot_swing", "hold", "penetration",
-        "self_penetration", "ground", "tangle", "joint_limit", "rig_turn"}) {
+  for (const auto& term : {"pose_tracking", "root_tracking", "foot_lock", "foot_swing", "hold",
+                           "penetration", "self_penetration", "ground", "tangle", "tangle_aim",
+                           "hand_contact", "joint_limit", "rig_turn"}) {
     const Checked& c = checked[term];
     std::printf("%-17s %6d rows %8d entries %7d not zero %3d frames skipped\n", term, c.rows,
                 c.entries, c.nonzero, c.skipped);
     EXPECT_GT(c.rows, 20) << term;
     EXPECT_GT(c.nonzero, 60) << term;
   }
-  EXPECT_EQ(checked.size(), 11u);
+  EXPECT_EQ(checked.size(), 13u);
 }
 
 TEST(Terms, PartsAreOfTheSceneAndAddUpToTheTerm) {
@@ -283,7 +297,7 @@ double TrackingCost(const Scene& scene, const Settings& settings,
 TEST(Terms, TrackingIsTheDistanceFromTheSource) {
   Settings settings;
   const double pose_weight = settings.weights.pose_tracking;
-  settings.weights = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  settings.weights = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   settings.weights.pose_tracking = pose_weight;
   settings.weights.root_tracking = 6;
   for (const bool follow : {false, true}) {

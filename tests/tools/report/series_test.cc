@@ -55,6 +55,16 @@ TEST_F(SeriesJsonTest, HasEveryCurveInEveryFrame) {
       ASSERT_EQ(tracking["values"].size(), 18u);
       for (const Json& joint : tracking["values"]) EXPECT_EQ(joint.size(), kFrames);
     }
+    const Json& between = s["between"];
+    ASSERT_EQ(between["tangles"].size(), subject_.tangles.size());
+    ASSERT_EQ(between["hold_cm"].size(), subject_.holds.size());
+    for (const Json& curve : between["tangles"]) EXPECT_EQ(curve.size(), kFrames - 1);
+    for (const Json& curve : between["hold_cm"]) EXPECT_EQ(curve.size(), kFrames - 1);
+    for (const char* curve : {"penetration_cm", "penetration_pair"}) {
+      EXPECT_EQ(between[curve].size(), kFrames - 1) << curve;
+    }
+    for (const char* figure : {"a", "b"})
+      EXPECT_EQ(between["floor_cm"][figure].size(), kFrames - 1);
     for (int t = 0; t < kFrames; ++t) {
       EXPECT_EQ(s["penetration_cm"][t] == 0, s["penetration_pair"][t].is_null()) << t;
     }
@@ -72,6 +82,7 @@ TEST_F(SeriesJsonTest, NumbersAreRoundedAndInCentimetres) {
   result_.at[3].gli[0] = -1e-9;
   result_.at[4].gli[0] = std::nan("");
   result_.foot_speed[1][5] = 0.1;
+  result_.between[6].hold_m[0] = 0.04321;
   const Json s = SeriesJson(subject_, source_, nullptr, result_)["result"];
   EXPECT_EQ(s["penetration_cm"][2].dump(), "1.235");
   EXPECT_EQ(s["tangles"][0][2].dump(), "0.9877");
@@ -79,6 +90,7 @@ TEST_F(SeriesJsonTest, NumbersAreRoundedAndInCentimetres) {
   EXPECT_EQ(s["tangles"][0][4].dump(), "null");
   EXPECT_EQ(s["foot_speed_cm_s"]["b"][5].dump(), "10.0");
   EXPECT_EQ(s["penetration_pair"][2][0], scene_.body[0].nodes[1].name);
+  EXPECT_EQ(s["between"]["hold_cm"][0][6].dump(), "4.321");
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The one frame that everything on the page shows, and its running.
 
 export class Clock {
-  time = 0; // in frames; a whole number unless playing
+  time = 0; // in frames; unless playing a whole number, or a half: between two frames
   playing = false;
   speed = 1;
   loop = true;
@@ -27,8 +27,19 @@ export class Clock {
     this.move(Math.round(Math.min(Math.max(frame, 0), this.frames - 1)));
   }
 
+  // The same, half way between frames, too.
+  show(time: number): void {
+    this.playing = false;
+    this.move(Math.round(2 * Math.min(Math.max(time, 0), this.frames - 1)) / 2);
+  }
+
+  // Whether it rests between two frames.
+  get between(): boolean {
+    return !this.playing && this.time !== this.frame;
+  }
+
   step(by: number): void {
-    this.seek(this.frame + by);
+    this.seek(by > 0 || !this.between ? this.frame + by : this.frame + 1 + by);
   }
 
   toggle(): void {

@@ -16,13 +16,18 @@ export const variantMeaning: Record<Variant, string> = {
   result: "solved",
 };
 
-export interface Series {
+// What is measured in the frames, and at the instants between them.
+export interface Instants {
   tangles: number[][]; // [tags][frames], s GLI, turns
   penetration_cm: number[];
   penetration_pair: (null | [string, string])[];
-  self_penetration_cm: PerFigure<number[]>;
   floor_cm: PerFigure<number[]>;
   hold_cm: number[][]; // [holds][frames]
+}
+
+export interface Series extends Instants {
+  between: Instants; // the worst from each frame to the next, one fewer
+  self_penetration_cm: PerFigure<number[]>;
   foot_speed_cm_s: PerFigure<number[]>;
   tracking_deg: null | PerFigure<{ joints: string[]; values: number[][] }>; // [joints][frames]
   pass_throughs: { frame: number; a: string; b: string }[];
@@ -88,9 +93,7 @@ export function limitOf(
   return report.requirements.find(isAsked)?.limit ?? otherwise;
 }
 
-// Largest of several series, frame by frame.
-export function largest(rows: number[][], frames: number): number[] {
-  return Array.from({ length: frames }, (_, t) =>
-    rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0),
-  );
+// Largest of several series, instant by instant.
+export function largest(rows: number[][]): number[] {
+  return (rows[0] ?? []).map((_, t) => rows.reduce((m, row) => Math.max(m, row[t] ?? 0), 0));
 }

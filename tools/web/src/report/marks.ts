@@ -51,15 +51,17 @@ export class Marks {
     figures.scene.add(this.ball);
   }
 
-  update(frame: number): void {
+  // In a frame, or between it and the next.
+  update(frame: number, between: boolean): void {
     for (const { first, last, figure, node, disc } of this.contacts) {
       disc.visible = frame >= first && frame <= last;
       if (!disc.visible) continue;
       const at = this.figures.point(figure, node);
       disc.position.set(at.x, 0.006, at.z);
     }
-    const pair = this.series.penetration_pair[frame];
-    const depth = this.series.penetration_cm[frame];
+    const { penetration_pair, penetration_cm } = between ? this.series.between : this.series;
+    const pair = penetration_pair[frame];
+    const depth = penetration_cm[frame];
     this.ball.visible = pair != null && depth > kShownFrom;
     if (!pair || !this.ball.visible) return;
     const [a, b] = pair.map(findNode);

@@ -135,18 +135,19 @@ export class Players {
     readout.replaceChildren();
     if (!series) return;
     const t = this.clock.frame;
-    const lost = series.tangles.flatMap((tag, k) => (tag[t] > kTangled ? [] : [k]));
+    const { tangles, penetration_cm } = this.clock.between ? series.between : series;
+    const lost = tangles.flatMap((tag, k) => (tag[t] > kTangled ? [] : [k]));
     const item = (text: string, bad: boolean) =>
       readout.append(element("span", { class: bad ? "bad" : "good" }, text));
-    if (series.tangles.length > 0) {
+    if (tangles.length > 0) {
       item(
         lost.length === 0
           ? "tangled"
-          : `lost: ${lost.map((k) => `tag ${k + 1} (${series.tangles[k][t].toFixed(2)})`).join(", ")}`,
+          : `lost: ${lost.map((k) => `tag ${k + 1} (${tangles[k][t].toFixed(2)})`).join(", ")}`,
         lost.length > 0,
       );
     }
-    const depth = series.penetration_cm[t];
+    const depth = penetration_cm[t];
     if (depth > 0.05) item(`${depth.toFixed(1)} cm inside`, depth > 2);
     const passed = series.pass_throughs.find((p) => Math.abs(p.frame - t) <= 2);
     if (passed) item("limb passes through", true);
@@ -165,7 +166,7 @@ export class Players {
     for (const { figures, marks } of this.players) {
       if (!figures) continue;
       figures.pose(time / this.clock.fps);
-      marks?.update(frame);
+      marks?.update(frame, this.clock.between);
       this.paint(figures);
     }
   }

@@ -8,7 +8,7 @@ import type { Clock } from "./clock";
 
 export interface Line {
   label: string;
-  values: (number | null)[];
+  values: (number | null)[]; // one per frame, or frames and the instants between them in turn
   colour: string; // a custom property of the style sheet, or a colour
   dash?: number[];
   width?: number;
@@ -138,9 +138,10 @@ export function addPlot(container: HTMLElement, options: PlotOptions): uPlot {
   );
 
   const count = lines[0].values.length;
-  const x = Array.from({ length: count }, (_, k) => k + (clock ? 0 : 1));
+  const perFrame = clock && count > clock.frames ? 2 : 1;
+  const x = Array.from({ length: count }, (_, k) => (clock ? k / perFrame : k + 1));
   const tell = (index: number | null | undefined) => {
-    const at = index ?? clock?.frame ?? count - 1;
+    const at = index ?? (clock ? Math.floor(clock.time * perFrame + 1e-9) : count - 1);
     lines.forEach((line, k) => {
       const value = line.values[at];
       values[k].textContent =

@@ -10,9 +10,11 @@ import {
   variants,
   variantTitle,
   type AllSeries,
+  type Instants,
   type Report,
   type Series,
 } from "./data";
+import { interleaved } from "./misses";
 
 const kLook = {
   source: { colour: "--source", dash: [2, 3], width: 1.75 },
@@ -29,6 +31,12 @@ const kTermColours = [
   "#56B4E9",
   "--muted",
 ];
+
+// Frames and the instants between them.
+const everyInstant =
+  (values: (s: Instants) => number[]) =>
+  (s: Series): number[] =>
+    interleaved(values(s), values(s.between));
 
 function linesOf(series: AllSeries, values: (s: Series) => number[]): Line[] {
   return variants
@@ -55,7 +63,10 @@ export function addPlots(
     addPlot(container, {
       title: `Tag ${k + 1}: s GLI`,
       unit: `turns; a ${words(a[0])} … ${words(a[1])} × b ${words(b[0])} … ${words(b[1])}`,
-      lines: linesOf(series, (s) => s.tangles[k]),
+      lines: linesOf(
+        series,
+        everyInstant((s) => s.tangles[k]),
+      ),
       digits: 2,
       limit: {
         value: limitOf(report, "tangle", kTangled, k),
@@ -75,16 +86,16 @@ export function addPlots(
       range: fromZero(limit ?? 0.5),
       clock,
     });
-  const both = (s: { a: number[]; b: number[] }) => largest([s.a, s.b], series.frames);
+  const both = (s: { a: number[]; b: number[] }) => largest([s.a, s.b]);
   centimetres(
     "Penetration between the bodies",
-    (s) => s.penetration_cm,
+    everyInstant((s) => s.penetration_cm),
     100 * limitOf(report, "penetration", 0.02),
   );
   if (series.result.hold_cm.length > 0) {
     centimetres(
       "Hold error",
-      (s) => largest(s.hold_cm, series.frames),
+      everyInstant((s) => largest(s.hold_cm)),
       100 * limitOf(report, "hold", 0.02),
     );
   }
@@ -96,7 +107,11 @@ export function addPlots(
     range: fromZero(1),
     clock,
   });
-  centimetres("Below the floor", (s) => both(s.floor_cm), 100 * limitOf(report, "floor", 0.01));
+  centimetres(
+    "Below the floor",
+    everyInstant((s) => both(s.floor_cm)),
+    100 * limitOf(report, "floor", 0.01),
+  );
   centimetres("Penetration of a body with itself", (s) => both(s.self_penetration_cm));
 }
 

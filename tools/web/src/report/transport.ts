@@ -2,17 +2,18 @@
 // what happens when.
 
 import { element, fitCanvas } from "../shared/dom";
-import { kTangled } from "../shared/gli";
 import { heatScale } from "../shared/legend";
 import { words } from "../shared/names";
 import { onThemeChange, themeColour } from "../shared/theme";
 import { views, type View } from "../shared/viewer";
 import type { Clock } from "./clock";
 import { variants, variantTitle, type AllSeries, type Report } from "./data";
+import { broken, missesOf, timeOf } from "./misses";
 import type { Players } from "./players";
 
 const kThumb = 12; // px, as in the style sheet
 const kRow = 9; // px per variant in the track
+const kLeastMark = 2; // px, of an instant in the track
 
 function button(label: string, title: string, act: () => void): HTMLButtonElement {
   const made = element("button", { type: "button", title, "aria-label": title }, label);
@@ -177,11 +178,13 @@ export class Transport {
       {
         class: "scrub-box",
         title:
-          "dark: a tangle is lost; ✕: a limb passes through a limb; proof: dark where something " +
-          "is not proved between two frames",
+          "dark: a tangle is lost, in a frame or between two; lower half: another limit is passed; " +
+          "✕: a limb passes through a limb; proof: dark where something is not proved between two " +
+          "frames; ▾: where a requirement is missed by most",
       },
       this.track,
       this.range,
+      ...this.makeMisses(),
     );
     const rows = variants.filter((v) => this.series[v]).length + (this.report.proof ? 1 : 0);
     scrub.style.setProperty("--rows", String(rows));
@@ -195,15 +198,29 @@ export class Transport {
     return element("div", { class: "scrubber" }, keys, labels, scrub, this.counter);
   }
 
+  // Where requirements are missed by most; clicking goes there, between two frames, too.
+  private makeMisses(): HTMLElement[] {
+    return missesOf(this.report, this.series.result).map(({ time, text }) => {
+      const mark = button("▾", text, () => this.clock.show(time));
+      mark.className = "miss";
+      const part = time / Math.max(1, this.clock.frames - 1);
+      mark.style.left = `calc(${kThumb / 2}px + (100% - ${kThumb}px) * ${part})`;
+      return mark;
+    });
+  }
+
   private refresh(): void {
-    const { frame, frames, fps, playing } = this.clock;
+    const { frame, frames, fps, playing, between, time } = this.clock;
     this.range.value = String(frame);
     this.range.setAttribute("aria-valuetext", `frame ${frame} of ${frames}`);
-    this.counter.textContent = `frame ${frame} / ${frames - 1} · ${(frame / fps).toFixed(2)} s`;
+    const seconds = ((between ? time : frame) / fps).toFixed(2);
+    const where = between ? `between ${frame} and ${frame + 1}` : `frame ${frame}`;
+    this.counter.textContent = `${where} / ${frames - 1} · ${seconds} s`;
     this.play.textContent = playing ? "Pause" : "Play";
   }
 
-  // One row per variant: where a tangle is lost, and where a limb passes through a limb.
+  // One row per variant: where a tangle is lost or another limit passed, and where a limb passes
+  // through a limb.
   private draw(): void {
     const context = fitCanvas(this.track);
     const width = this.track.clientWidth - kThumb;
@@ -218,17 +235,19 @@ export class Transport {
         context.fillStyle = themeColour("--held");
         context.fillRect(x(0), top + 1, width, kRow - 2);
         context.fillStyle = themeColour("--bad");
-        for (let t = 0; t < frames; ++t) {
-          if (series.tangles.some((tag) => tag[t] <= kTangled)) {
-            const left = Math.max(x(0), x(t) - cell / 2);
-            context.fillRect(
-              left,
-              top + 1,
-              Math.min(x(t) + cell / 2, x(frames - 1)) - left + 0.3,
-              kRow - 2,
-            );
-          }
-        }
+        broken(this.report, series).forEach(({ lost, passed }, k) => {
+          if (!lost && !passed) return;
+          const half = Math.max(cell / 4, kLeastMark / 2);
+          const left = Math.max(x(0), x(timeOf(k)) - half);
+          const right = Math.min(x(timeOf(k)) + half, x(frames - 1));
+          const height = kRow - 2;
+          context.fillRect(
+            left,
+            top + 1 + (lost ? 0 : height / 2),
+            Math.max(right - left + 0.3, 1),
+            lost ? height : height / 2,
+          );
+        });
         context.strokeStyle = themeColour("--ink");
         context.lineWidth = 1.6;
         for (const { frame } of series.pass_throughs) {
