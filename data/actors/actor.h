@@ -12,6 +12,7 @@
 
 #include "data/actors/gait.h"
 #include "model/body/body.h"
+#include "model/body/joint_limit.h"
 #include "model/geometry/so3.h"
 #include "model/geometry/types.h"
 
@@ -199,6 +200,20 @@ inline void PoseLeg(const Actor& actor, const std::string& side, const Vec3& roo
   (*world)[side + "ToeBase"] = flat;  // toes stay on the floor under a rising heel
 }
 
+// A bend of the wrist that stays this far (rad) within its range: who holds somebody for long does
+// not hold him at the end of it.
+inline constexpr double kWristSpare = 15 * kDegree;
+inline Quat WithinWrist(const std::string& joint, const Quat& bent) {
+  const JointLimit limit = StandardLimit(joint);
+  double beyond = -kPi;
+  for (const LimitExcess& e : LimitExcesses(limit, bent, Quat::Identity(), limit.axis)) {
+    beyond = std::max(beyond, e.beyond);
+  }
+  const Vec3 turn = LogSo3(bent);
+  const double most = turn.norm() - beyond - kWristSpare;  // in this direction
+  return turn.norm() <= most ? bent : ExpSo3(most / turn.norm() * turn);
+}
+
 inline void PoseArm(const Actor& actor, double x, const std::string& side, const Vec3& root,
                     const ArmPosture& arm, Rotations* world) {
   const Quat chest = world->at("Spine2");
@@ -207,17 +222,24 @@ inline void PoseArm(const Actor& actor, double x, const std::string& side, const
   (*world)[side + "Shoulder"] =
       chest * ExpDegrees(Vec3(0, -x * arm.protraction_deg, x * arm.shrug_deg));
   const Vec3 shoulder = PositionOf(actor, side + "Arm", root, *world);
-  const Vec3 pointing = to_world(arm.pointing.normalized());
   const double upper = actor.Length(side + "ForeArm"), lower = actor.Length(side + "Hand");
-  const Vec3 wanted = PositionOf(actor, "Spine2", root, *world) + to_world(arm.knuckles) -
-                      actor.Length(side + "HandMiddle1") * pointing;
-  const Vec3 wrist = shoulder + WithinReach(wanted - shoulder, upper + lower);
-  const Vec3 elbow = MiddleJoint(shoulder, wrist, upper, lower, to_world(arm.elbow));
-  Quat forearm;
-  AimHinge(bone, hinge, elbow - shoulder, wrist - elbow, &(*world)[side + "Arm"], &forearm);
-  const Quat hand = Aim(bone, -Vec3::UnitY(), pointing, to_world(arm.palm));
-  // The forearm, not the wrist, turns the palm.
-  (*world)[side + "ForeArm"] = forearm * TwistAbout(forearm.conjugate() * hand, bone);
+  Quat forearm,
+      hand = Aim(bone, -Vec3::UnitY(), to_world(arm.pointing.normalized()), to_world(arm.palm));
+  // A wrist that would bend too far gives way, and the arm brings the knuckles to their place.
+  for (int k = 0; k < 12; ++k) {
+    const Vec3 wanted = PositionOf(actor, "Spine2", root, *world) + to_world(arm.knuckles) -
+                        actor.Length(side + "HandMiddle1") * (hand * bone);
+    const Vec3 wrist = shoulder + WithinReach(wanted - shoulder, upper + lower);
+    const Vec3 elbow = MiddleJoint(shoulder, wrist, upper, lower, to_world(arm.elbow));
+    AimHinge(bone, hinge, elbow - shoulder, wrist - elbow, &(*world)[side + "Arm"], &forearm);
+    // The forearm, not the wrist, turns the palm.
+    forearm = forearm * TwistAbout(forearm.conjugate() * hand, bone);
+    const Quat within =
+        WithinWrist(x > 0 ? "left_wrist" : "right_wrist", forearm.conjugate() * hand);
+    if (within.angularDistance(forearm.conjugate() * hand) < 1e-9) break;
+    hand = forearm * within;
+  }
+  (*world)[side + "ForeArm"] = forearm;
   (*world)[side + "Hand"] = hand;
   (*world)[side + "HandMiddle1"] = hand * ExpDegrees(Vec3(0, 0, -x * arm.curl_deg));
 }

@@ -108,6 +108,7 @@ Scene SceneOf(const PoseTask& task) {
   scene.holds = task.holds;
   scene.tangles = task.tangles;
   for (int f = 0; f < 2; ++f) scene.source[f].frames = {task.before[f]};
+  scene.source_widens_limits = false;
   return scene;
 }
 

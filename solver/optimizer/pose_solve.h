@@ -25,8 +25,8 @@ struct NodeTarget {
 // What is asked of a pose.
 struct PoseTask {
   std::array<Body, 2> body;
-  std::array<Pose, 2> before;  // the pose before the drag: what the solve stays close to. Limits
-                               // and self-penetration count beyond what it shows.
+  std::array<Pose, 2> before;  // the pose before the drag: what the solve stays close to.
+                               // Self-penetration counts beyond what it shows, joint limits do not.
   std::vector<NodeTarget> drags, pins;
   std::vector<NodeRay> drag_rays, pin_rays;
   std::vector<Hold> holds;

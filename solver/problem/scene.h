@@ -39,6 +39,9 @@ struct Scene {
   std::array<std::vector<Contact>, 2> contacts;
   // Turns that the figures' own rigs cannot make, per frame; empty where they can make all.
   std::array<std::vector<std::vector<LockedAxis>>, 2> locked_axes;
+  // A source beyond a joint's limit may stay there, and comes near it at no cost; else the limit
+  // itself counts (posing).
+  bool source_widens_limits = true;
   // Where edits of the roots are counted from, per frame: the placed root, shifted. Empty: the
   // placed root itself. (EditBase)
   std::array<std::vector<RootShift>, 2> base;

@@ -17,7 +17,7 @@ namespace {
 // stature, so the figure sits, kneels or lies.
 constexpr double kFallen = 0.35;
 constexpr double kTouches = 0.002;  // m: feet of a clip no further from the floor touch it
-constexpr double kRestTime = 0.1;  // s at rest before the clips begin: one slow step is none
+constexpr double kRestTime = 0.1;   // s at rest before the clips begin: one slow step is none
 
 class Simulator {
  public:

@@ -120,6 +120,8 @@ Job LoadJob(const Request& request) {
         request.template_at, job.frames.first / request.fps, (job.frames.last - 1) / request.fps));
   }
   job.input.template_frame = static_cast<int>(at);
+  job.fit = FitOfJob(job.input, job.clip, request.settings.tangle, job.frames.first / request.fps,
+                     request.words.template_at);
   return job;
 }
 
@@ -147,6 +149,7 @@ std::vector<std::string> RecognitionNotes(const Job& job) {
                                 " t-pose: no BVH, written with its own rest pose");
     }
   }
+  for (const std::string& warning : job.fit.warnings) notes.push_back("warning: " + warning);
   return notes;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/load_clip.h"
+#include "tools/api/clip_fit.h"
 #include "tools/api/retarget.h"
 
 namespace retarget::api {
@@ -16,6 +17,7 @@ struct Job {
   std::array<io::LoadedClip, 2> clip;
   solver::RetargetInput input;
   FrameRange frames;
+  JobFit fit;
 };
 
 Job LoadJob(const Request& request);  // throws InputError
@@ -28,7 +30,8 @@ std::vector<std::string> InputPaths(const Request& request);
 // Frames that stand before the motion on a clip's own rig: 1 for a T-pose, else 0.
 int RestFramesOf(const Job& job, int f);
 
-// What was recognised in each clip: a line each, and notes. The start of Result::notes.
+// What was recognised in each clip, a line each with notes, and how the clips fit the template. The
+// start of Result::notes.
 std::vector<std::string> RecognitionNotes(const Job& job);
 
 // The rest of Run.

@@ -1,4 +1,5 @@
 // Run: from clips and template to a solved, measured and written scene.
+#include <algorithm>
 #include <utility>
 
 #include "io/settings_file.h"
@@ -89,8 +90,17 @@ Result RunJob(const Job& job, const Progress& progress) {
     result.run.warnings.push_back("both clips are the same file, at different instants");
   }
   const solver::Scene& scene = result.run.scene;
-  for (const std::string& warning : result.run.warnings) {
-    result.notes.push_back("warning: " + warning);
+  std::vector<std::string>& warnings = result.run.warnings;
+  for (const std::string& warning : job.fit.warnings) {
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
+      warnings.push_back(warning);
+    }
+  }
+  for (const std::string& warning : warnings) {
+    const std::string note = "warning: " + warning;  // those of the fit have been told
+    if (std::find(result.notes.begin(), result.notes.end(), note) == result.notes.end()) {
+      result.notes.push_back(note);
+    }
   }
 
   // Measure what is written, as it would be read back.

@@ -163,6 +163,7 @@ report::Json RunReport(const RunFacts& run, const solver::Metrics& source,
   report["proof"] = proof::ProofJson(run.proof, run.subject);
   report["conflicts"] = report::DiagnosesJson(run.diagnoses, run.subject);
   report["warnings"] = result.warnings;
+  report["clip_fit"] = JobFitJson(run.job.fit);
   report["literal_tangles"] = result.tangles.literal.size();
   report["solve"] = SolveJson(result);
   report["simulation"] = report::SimulationJson(result.simulation);

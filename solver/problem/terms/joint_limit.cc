@@ -8,8 +8,27 @@ namespace {
 
 constexpr double kM = kSoftMargin;
 
+struct Joint {
+  int figure, link, parent;
+};
+
+void AddRow(const LimitExcess& excess, double residual, double slope, const Joint& at, Rows* rows) {
+  const int row = rows->Add(residual);
+  rows->AddJointTurn(row, at.figure, at.link, slope * excess.gradient);
+  if (!excess.by_parent.isZero(0)) {
+    rows->AddJointTurn(row, at.figure, at.parent, slope * excess.by_parent);
+  }
+}
+
 double Soft(double x) { return x > kM ? x : (x + kM) * (x + kM) / (4 * kM); }
 double SoftSlope(double x) { return x > kM ? 1 : (x + kM) / (2 * kM); }
+
+// Beyond the limits themselves.
+void AddStrictly(const Frame& frame, int f, int l, Rows* rows) {
+  for (const LimitExcess& e : LimitExcesses(frame.body(f), l, frame.pose[f])) {
+    if (e.beyond > 0) AddRow(e, e.beyond, 1, {f, l, frame.body(f).links[l].parent}, rows);
+  }
+}
 
 void AddLink(const Frame& frame, int f, int l, Rows* rows) {
   const Body& body = frame.body(f);
@@ -22,12 +41,7 @@ void AddLink(const Frame& frame, int f, int l, Rows* rows) {
   for (size_t k = 0; k < now.size(); ++k) {
     const double x = now[k].beyond - std::max(0.0, source[k].beyond + kM);
     if (x <= -kM) continue;
-    const int row = rows->Add(Soft(x));
-    rows->AddJointTurn(row, f, l, SoftSlope(x) * now[k].gradient);
-    const int parent = body.links[l].parent;
-    if (parent > 0 && body.links[l].limit.turns_with_parent) {
-      rows->AddJointTurn(row, f, parent, SoftSlope(x) * now[k].by_parent);
-    }
+    AddRow(now[k], Soft(x), SoftSlope(x), {f, l, body.links[l].parent}, rows);
   }
 }
 
@@ -35,7 +49,13 @@ void AddLink(const Frame& frame, int f, int l, Rows* rows) {
 
 void JointLimitTerm::EvaluatePart(const Frame& frame, int, Rows* rows) const {
   for (int f = 0; f < 2; ++f) {
-    for (int l = 1; l < frame.body(f).num_links(); ++l) AddLink(frame, f, l, rows);
+    for (int l = 1; l < frame.body(f).num_links(); ++l) {
+      if (frame.scene->source_widens_limits) {
+        AddLink(frame, f, l, rows);
+      } else {
+        AddStrictly(frame, f, l, rows);
+      }
+    }
   }
 }
 

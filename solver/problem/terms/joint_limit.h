@@ -2,7 +2,8 @@
 //   r = soft(beyond(R) - max(0, beyond(R_source) + m))      (rad), per limit of
 // model/body/joint_limit.h, with m = kSoftMargin and soft(x) = 0 for x < -m, (x + m)^2 / 4m for
 // |x| <= m, x beyond: it begins before the end of the range, has no kink, and asks nothing of a
-// pose as captured. 1 frame, 1 body. YAML: weights.joint_limit.
+// pose as captured. Where Scene::source_widens_limits is false, r = max(0, beyond(R)). 1 frame,
+// 1 body. YAML: weights.joint_limit.
 #pragma once
 
 #include "solver/problem/term.h"
