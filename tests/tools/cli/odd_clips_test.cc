@@ -2,7 +2,9 @@
 #include "io/bvh/bvh.h"
 #include "io/files.h"
 #include "io/load_clip.h"
+#include "io/scene/scene_motion.h"
 #include "model/body/body.h"
+#include "model/geometry/so3.h"
 #include "tests/tools/run_program.h"
 #include "tools/report/report.h"
 
@@ -40,6 +42,43 @@ TEST(OddClips, SolveAsTheirUsualTwinsDo) {
   EXPECT_NE(mapped.out.find("2 animations, the first is taken: 0 \"retargeted\""),
             std::string::npos)
       << mapped.out;
+}
+
+// One turns by 300 and by 360 degrees, the other stands in his clip: he is led round, by steps.
+TEST(OddClips, WhoIsTurnedAwayIsFollowedAllTheWay) {
+  SKIP_WITHOUT_SHARED_DATA();
+  const Scratch scratch;
+  const std::string hold = ProjectPath("data/holds/bear_hug/");
+  for (const auto& [clip, degrees] : {std::pair("turn_300", 300.0), {"turn_360", 360.0}}) {
+    const std::string out = scratch / clip;
+    const Outcome run = RunProgram(
+        scratch, "--frames 0:119 --json --clip-a " +
+                     SharedPath(std::string("data/faults/25_turns_away/") + clip + ".bvh") +
+                     " --clip-b " + hold + "b.bvh --template " + hold + "template.yaml --out " +
+                     out);
+    EXPECT_EQ(run.code, 0) << clip << run.err;
+    EXPECT_EQ(report::Json::parse(run.out)["pass_throughs"].size(), 0u);
+    const io::SceneMotion scene = io::ReadSceneGlb(out + "/scene.glb");
+    std::array<double, 2> turned = {0, 0}, step = {0, 0};  // rad
+    for (int f = 0; f < 2; ++f) {
+      const std::vector<int> root = scene.FindNodes(f == 0 ? "a" : "b", {"root"});
+      std::vector<Vec3> place;
+      std::vector<Quat> before, now;
+      for (size_t t = 0; t < scene.key_times.size(); ++t) {
+        scene.NodeFrames(scene.key_times[t], root, &place, &now);
+        if (t > 0) {
+          const double yaw = YawOf(now[0] * before[0].conjugate());
+          turned[f] += yaw;
+          step[f] = std::max(step[f], std::abs(yaw));
+        }
+        before = now;
+      }
+    }
+    EXPECT_NEAR(std::abs(turned[0]) / kDegree, degrees, 15) << clip;
+    EXPECT_NEAR(std::abs(turned[1]) / kDegree, degrees, 15) << clip;
+    EXPECT_GT(turned[0] * turned[1], 0) << clip;
+    EXPECT_LT(step[1], 3 * step[0]) << clip;
+  }
 }
 
 TEST(OddClips, AStatureAloneSettlesTheUnit) {
