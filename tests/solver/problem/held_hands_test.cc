@@ -44,7 +44,9 @@ TEST(TangleAim, IsTwoSidedAndBounded) {
     ASSERT_EQ(r.size(), 1u);
     EXPECT_LE(std::abs(r[0]), 0.25);
     EXPECT_EQ(r[0] < 0, off < 0);
-    if (std::abs(off) <= 0.1) EXPECT_NEAR(r[0], off, 0.06 * std::abs(off));
+    if (std::abs(off) <= 0.1) {
+      EXPECT_NEAR(r[0], off, 0.06 * std::abs(off));
+    }
   }
 }
 
