@@ -115,15 +115,15 @@ struct ContactSettings {
 
 // The forward simulation (solver/simulation): baseline, and one of the starts.
 struct SimulationSettings {
-  double time_step = 0.004;           // s
-  double gravity = 9.81;              // m/s^2
-  double stiffness = 600;             // N m/rad, of the joints' control towards the capture
-  double damping = 0.1;               // s, of the same: damping over stiffness
-  double armature = 0.02;             // kg m^2, added to every joint's inertia
-  double root_stiffness = 10000;      // N/m, of the roots' control
-  double root_turn_stiffness = 1500;  // N m/rad, of the same
+  double time_step = 0.004;            // s
+  double gravity = 9.81;               // m/s^2
+  double stiffness = 600;              // N m/rad, of the joints' control towards the capture
+  double damping = 0.1;                // s, of the same: damping over stiffness
+  double armature = 0.02;              // kg m^2, added to every joint's inertia
+  double root_stiffness = 10000;       // N/m, of the roots' control
+  double root_turn_stiffness = 1500;   // N m/rad, of the same
   double root_height_stiffness = 1e5;  // N/m, of the same in height, against all loads
-  double root_damping = 0.1;          // s, of the same: damping over stiffness
+  double root_damping = 0.1;           // s, of the same: damping over stiffness
   double friction = 1;
   double contact_time = 0.01;  // s: contacts give way for about this long
   double tie_time = 0.01;      // s, the same of holds and planted feet
@@ -185,8 +185,8 @@ void VisitSettings(SettingsT& s, Visitor&& visit) {
   visit("weights.tangle", w.tangle, "1/turn", "tagged tangles stay above one half", 0, kMax);
   visit("weights.tangle_aim", w.tangle_aim, "1/turn",
         "tagged tangles are drawn to their value in the template", 0, kMax);
-  visit("weights.hand_contact", w.hand_contact, "1/m", "hands touch what they touch in the template",
-        0, kMax);
+  visit("weights.hand_contact", w.hand_contact, "1/m",
+        "hands touch what they touch in the template", 0, kMax);
   visit("weights.joint_limit", w.joint_limit, "1/rad",
         "joints bend no further than the limit or the capture", 0, kMax);
   visit("weights.rig_turn", w.rig_turn, "1/rad",

@@ -61,7 +61,7 @@ struct TemplatePosture {
   std::array<Pose, 2> pose;
   std::vector<Hold> holds;
   std::optional<std::vector<HandContact>> contacts;  // nothing: those found in the posture
-  std::array<std::vector<int>, 2> supports;  // nodes that may be planted
+  std::array<std::vector<int>, 2> supports;          // nodes that may be planted
   std::array<RootReference, 2> root = {RootReference::kOwnClip, RootReference::kOwnClip};
   std::vector<TangleRequest> tangles;  // empty: find and reduce
   std::optional<TemplatePhoto> photo;

@@ -88,8 +88,9 @@ double HoldingHandGap(const MetricsContext& subject, int figure,
     if (hand.figure != figure) continue;
     std::vector<double> gaps;
     for (const NodePositions& node : frames) gaps.push_back(HandGap(subject, hand, node));
-    const auto at = gaps.begin() + static_cast<long>(std::ceil(
-                                       kPercentile * static_cast<double>(gaps.size()))) - 1;
+    const auto at = gaps.begin() +
+                    static_cast<long>(std::ceil(kPercentile * static_cast<double>(gaps.size()))) -
+                    1;
     std::nth_element(gaps.begin(), at, gaps.end());
     largest = std::fmax(largest, *at);
   }

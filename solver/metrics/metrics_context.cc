@@ -37,8 +37,8 @@ std::vector<NodePositions> NodesOf(const MotionView& motion) {
 }
 
 MetricsContext MetricsContextOf(const Scene& scene) {
-  MetricsContext subject{scene.body,  {},             scene.tangles,
-                         scene.holds, scene.contacts, scene.hand_contacts};
+  MetricsContext subject{scene.body,         {}, scene.tangles, scene.holds, scene.contacts,
+                         scene.hand_contacts};
   for (int f = 0; f < 2; ++f) {
     subject.length[f].push_back(0);
     for (int n = 1; n < scene.body[f].num_nodes(); ++n) {

@@ -61,9 +61,10 @@ void Control::Apply(const ControlTarget& target, const std::array<PosedBody, 2>&
   for (int f = 0; f < 2; ++f) {
     const Pose pose = world->PoseOf(f);
     const Pose& aim = target.pose[f];
-    world->AddForce(f, 0, posed[f].centre[0],
-                    RootStiffness(f).cwiseProduct(aim.root_position - pose.root_position +
-                                                  settings_.root_damping * target.root_velocity[f]));
+    world->AddForce(
+        f, 0, posed[f].centre[0],
+        RootStiffness(f).cwiseProduct(aim.root_position - pose.root_position +
+                                      settings_.root_damping * target.root_velocity[f]));
     for (int l = 0; l < scene_.body[f].num_links(); ++l) {
       const Vec3 error = LogSo3(pose.rotation[l].conjugate() * aim.rotation[l]);
       const double stiffness = l == 0 ? settings_.root_turn_stiffness : stiffness_[f][l];

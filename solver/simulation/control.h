@@ -37,8 +37,8 @@ class Control {
              PhysicsWorld* world) const;
 
  private:
-  // Of the root's place over the floor, and of its height where the figure follows its own clip: the
-  // capture carries its own weight, and feet that sag with it would trip (N/m).
+  // Of the root's place over the floor, and of its height where the figure follows its own clip:
+  // the capture carries its own weight, and feet that sag with it would trip (N/m).
   Vec3 RootStiffness(int figure) const;
 
   const Scene& scene_;

@@ -45,8 +45,8 @@ std::string LinkName(int figure, int link);
 std::string SegmentName(int figure, int node);
 std::string TieName(int tie);
 
-// Contact is possible where contype of one geom meets conaffinity of the other: the floor's bit with
-// all, figure 0 with figure 1.
+// Contact is possible where contype of one geom meets conaffinity of the other: the floor's bit
+// with all, figure 0 with figure 1.
 inline constexpr int kFloorBit = 4;
 
 // A free joint for each root and a ball joint for every other link, in links' order; one capsule

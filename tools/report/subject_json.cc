@@ -123,8 +123,8 @@ Json SubjectJson(const solver::MetricsContext& subject, const solver::Metrics& r
                   {"node", subject.body[figure].nodes[node].name},
                   {"along", along}};
     };
-    out["hand_contacts"].push_back({{"from", end(c.figure, c.hand, c.along)},
-                                    {"to", end(1 - c.figure, c.to, c.to_along)}});
+    out["hand_contacts"].push_back(
+        {{"from", end(c.figure, c.hand, c.along)}, {"to", end(1 - c.figure, c.to, c.to_along)}});
   }
   return out;
 }

@@ -1,5 +1,6 @@
 // hand_contact: a hand touches what it touches in the template, and may slide on it.
-//   r1 = max(0, |p - q| - R_i - R_j)                 (m), p, q the closest points of the axes of the
+//   r1 = max(0, |p - q| - R_i - R_j)                 (m), p, q the closest points of the axes of
+//   the
 //                                                    hand's capsule and of the partner's
 //   r2 = max(0, |p0 - q0| - R_i - R_j - slide)       (m), p0, q0 the points of the axes that are
 //                                                    closest in the template

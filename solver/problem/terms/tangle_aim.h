@@ -1,5 +1,5 @@
-// tangle_aim: a tagged tangle is drawn, weakly, to the value that it has in the template, so that it
-// does not unwind to the threshold at which the hinge of `tangle` ends.
+// tangle_aim: a tagged tangle is drawn, weakly, to the value that it has in the template, so that
+// it does not unwind to the threshold at which the hinge of `tangle` ends.
 //   r = h tanh((aim - s GLI(P, Q)) / h)          (turns), s the template's sign, aim its s GLI
 // on both sides; h = 0.25 bounds the pull where a motion is far from it, so that no limb is driven
 // through another for it. Raised in stages with the contacts, for the same reason.

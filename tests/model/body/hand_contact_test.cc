@@ -12,7 +12,8 @@ namespace {
 
 // Two figures in the T-pose, side by side: a's left hand points at b.
 struct Pair {
-  std::array<Body, 2> body = {StandardBody(AverageMeasures(1.8)), StandardBody(AverageMeasures(1.7))};
+  std::array<Body, 2> body = {StandardBody(AverageMeasures(1.8)),
+                              StandardBody(AverageMeasures(1.7))};
   std::array<Pose, 2> pose = {RestPose(body[0]), RestPose(body[1])};
   std::array<PosedBody, 2> Posed() const {
     return {PoseBody(body[0], pose[0]), PoseBody(body[1], pose[1])};
@@ -61,8 +62,8 @@ TEST(HandContact, AHandTouchesTheNearestSegmentWithinReach) {
   EXPECT_NEAR(found[0].to_along, 0.5, 0.02);
   EXPECT_TRUE(FindHandContacts(pair.body, pair.Posed(), 0.015).empty());
   // The other way round it is b's.
-  const std::vector<HandContact> swapped = FindHandContacts(
-      {pair.body[1], pair.body[0]}, {pair.Posed()[1], pair.Posed()[0]}, 0.03);
+  const std::vector<HandContact> swapped =
+      FindHandContacts({pair.body[1], pair.body[0]}, {pair.Posed()[1], pair.Posed()[0]}, 0.03);
   ASSERT_EQ(swapped.size(), 1u);
   EXPECT_EQ(swapped[0].figure, 1);
   EXPECT_EQ(swapped[0].to, elbow);

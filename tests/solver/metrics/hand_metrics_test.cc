@@ -20,10 +20,11 @@ MetricsContext HoldingOne(const Scene& scene, const char* hand, int to_figure, c
 TEST(HandMetrics, HandsHoldTheSegmentsAtTheHeldNode) {
   const Scene scene = SmallScene(2, 0);
   const Body& b = scene.body[1];
-  const std::vector<HoldingHand> hands = HoldingHands(HoldingOne(scene, "left_wrist", 1, "right_knee"));
+  const std::vector<HoldingHand> hands =
+      HoldingHands(HoldingOne(scene, "left_wrist", 1, "right_knee"));
   ASSERT_EQ(hands.size(), 1u);
-  EXPECT_EQ(hands[0].segments,
-            (std::vector<int>{scene.body[0].FindNode("left_hand"), scene.body[0].FindNode("left_wrist")}));
+  EXPECT_EQ(hands[0].segments, (std::vector<int>{scene.body[0].FindNode("left_hand"),
+                                                 scene.body[0].FindNode("left_wrist")}));
   EXPECT_EQ(hands[0].to, (std::vector<int>{b.FindNode("right_knee"), b.FindNode("right_ankle")}));
   // Its own forearm is no surface that a hand could be off.
   EXPECT_TRUE(HoldingHands(HoldingOne(scene, "left_hand", 0, "left_elbow")).empty());
@@ -39,7 +40,8 @@ TEST(HandMetrics, TheGapIsThe95thPercentileOfTheNearerOfHandAndForearm) {
   const Scene scene = SmallScene(2, 0);
   MetricsContext subject = MetricsContextOf(scene);
   subject.holds.clear();
-  const int hand = scene.body[0].FindNode("right_hand"), knee = scene.body[1].FindNode("right_knee");
+  const int hand = scene.body[0].FindNode("right_hand"),
+            knee = scene.body[1].FindNode("right_knee");
   subject.hand_contacts = {{0, hand, 0.5, knee, 0.5}};
   const int wrist = scene.body[0].nodes[hand].parent, elbow = scene.body[0].nodes[wrist].parent;
   const int hip = scene.body[1].nodes[knee].parent;

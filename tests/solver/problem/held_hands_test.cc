@@ -18,8 +18,7 @@ double SignedGli(const Scene& scene, const std::array<Clip, 2>& clips, int t, si
     const PosedBody posed = PoseBody(scene.body[f], clips[f].frames[t]);
     return PointsOn(posed.node, NodesOn(scene.body[f], path));
   };
-  return held.sign *
-         PolylineGli(points(0, held.tag.tangle.a), points(1, held.tag.tangle.b));
+  return held.sign * PolylineGli(points(0, held.tag.tangle.a), points(1, held.tag.tangle.b));
 }
 
 std::vector<double> Residuals(const Term& term, const Scene& scene, const Unknowns& u, int t) {
@@ -98,9 +97,9 @@ TEST(HandContactTerm, PullsAHandOntoTheSurfaceAndLetsItSlide) {
     for (int t = 0; t < 6; ++t) {
       for (const HandContact& c : scene.hand_contacts) {
         largest[on] = std::max(
-            largest[on], SurfaceGap(scene.body[0], PoseBody(scene.body[0], clips[0].frames[t]).node,
-                                    c.hand, scene.body[1],
-                                    PoseBody(scene.body[1], clips[1].frames[t]).node, c.to));
+            largest[on],
+            SurfaceGap(scene.body[0], PoseBody(scene.body[0], clips[0].frames[t]).node, c.hand,
+                       scene.body[1], PoseBody(scene.body[1], clips[1].frames[t]).node, c.to));
       }
     }
   }

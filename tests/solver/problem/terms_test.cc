@@ -114,11 +114,10 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
       scene.locked_axes[f].assign(
           4, {{elbow, Vec3(0.6, 0.8, 0)}, {elbow, Vec3(0, 0, 1)}, {ankle, Vec3(1, 2, -2) / 3}});
     }
-    for (HandContact c : FindHandContacts(
-             scene.body,
-             {PoseBody(scene.body[0], scene.posture.pose[0]),
-              PoseBody(scene.body[1], scene.posture.pose[1])},
-             1)) {
+    for (HandContact c : FindHandContacts(scene.body,
+                                          {PoseBody(scene.body[0], scene.posture.pose[0]),
+                                           PoseBody(scene.body[1], scene.posture.pose[1])},
+                                          1)) {
       scene.hand_contacts.push_back(c);
       c.along = c.to_along = 0.3;
       scene.hand_contacts.push_back(c);
@@ -134,10 +133,9 @@ TEST(Terms, AnalyticJacobiansMatchCentralDifferences) {
       }
     }
   }
-  for (const auto& term :
-       {"pose_tracking", "root_tracking", "foot_lock", "foot_swing", "hold", "penetration",
-        "self_penetration", "ground", "tangle", "tangle_aim", "hand_contact", "joint_limit",
-        "rig_turn"}) {
+  for (const auto& term : {"pose_tracking", "root_tracking", "foot_lock", "foot_swing", "hold",
+                           "penetration", "self_penetration", "ground", "tangle", "tangle_aim",
+                           "hand_contact", "joint_limit", "rig_turn"}) {
     const Checked& c = checked[term];
     std::printf("%-17s %6d rows %8d entries %7d not zero %3d frames skipped\n", term, c.rows,
                 c.entries, c.nonzero, c.skipped);
