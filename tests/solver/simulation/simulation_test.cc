@@ -149,7 +149,8 @@ TEST(Simulation, RootsKeepTheHeightOfTheirClips) {
   EXPECT_GT(sag(soft), 0.04) << "the test has something to keep";
 }
 
-// A clip with one foot on the floor and one lifted: the lifted one alone goes through the floor.
+// A figure without control sinks, as fast as its roots' damping lets it: its feet stop it on the
+// floor where the clip's stand on it, and go through where the clip's are lifted.
 TEST(Simulation, SwingingFeetDoNotCatchOnTheFloor) {
   const Scene standing = StandingApart(2);
   const Body& body = standing.body[0];
@@ -163,7 +164,7 @@ TEST(Simulation, SwingingFeetDoNotCatchOnTheFloor) {
     PhysicsWorld world({control.FigureOf(0), control.FigureOf(1)}, {}, options);
     for (int f = 0; f < 2; ++f) world.SetPose(f, standing.posture.pose[f]);
     SwingingFeet(scene).Apply(0, 1, &world);
-    for (int step = 0; step < 50; ++step) {  // falls freely where nothing stops it: 20 cm
+    for (int step = 0; step < 100; ++step) {
       world.BeginStep();
       world.EndStep();
     }
@@ -171,7 +172,8 @@ TEST(Simulation, SwingingFeetDoNotCatchOnTheFloor) {
     const PosedBody posed = world.Posed(0);
     const double lowest = std::min(posed.node[ankle].y() - body.nodes[ankle].radius,
                                    posed.node[toe].y() - body.nodes[toe].radius);
-    EXPECT_EQ(lowest<-0.05, lift> 0) << lowest;
+    const bool through = lowest<-0.015, lifted = lift> 0;
+    EXPECT_EQ(through, lifted) << lowest;
   }
 }
 
