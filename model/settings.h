@@ -46,7 +46,7 @@ struct Weights {
   double self_penetration = 60;
   double ground = 100;
   double tangle = 20;
-  double tangle_aim = 4;
+  double tangle_aim = 8;
   double hand_contact = 30;
   double joint_limit = 10;
   double rig_turn = 100;

@@ -8,6 +8,10 @@
 #include "solver/start/weak_tags.h"
 
 namespace retarget::api {
+namespace {
+// Hands that hold further off (m) are seen not to: the hold keeps the posture's distance.
+constexpr double kHovers = 0.02;
+}  // namespace
 
 report::Json TangleJson(const Body& a, const Body& b, const Tangle& t) {
   return {{"a", {a.nodes[t.a.from].name, a.nodes[t.a.to].name}},
@@ -64,6 +68,13 @@ TemplateCheck CheckTemplate(const TemplatePosture& posture, const Settings& sett
   check.warnings = TagWarnings(posture, check.tangles.tags);
   const std::vector<std::string> limits = LimitWarnings(posture);
   check.warnings.insert(check.warnings.end(), limits.begin(), limits.end());
+  for (int f = 0; f < 2; ++f) {
+    const double gap = check.metrics.figure[f].holding_hand_gap_m;
+    if (!(gap > kHovers)) continue;
+    check.warnings.push_back(
+        fmt::format("a hand of {} holds {:.1f} cm off the surface of what it holds",
+                    report::kFigure[f], 100 * gap));
+  }
   return check;
 }
 

@@ -21,7 +21,7 @@ here=$(dirname "$0")
   --rotate b/right_shoulder=25.3,13.7,-25.4 --rotate b/right_elbow=-0.0,101.4,-0.0 \
   --rotate b/right_wrist=-0.0,-6.1,45.0 --rotate b/left_shoulder=-94.6,17.6,45.5 \
   --rotate b/left_elbow=-0.0,-92.0,-0.0 --rotate b/left_wrist=0.0,46.6,18.0 --pin a/root \
-  --pin b/root --settle --hold a/right_hand=b/neck --hold a/left_hand=b/right_knee \
+  --pin b/root --settle --drag a/left_hand=0.386,1.53,-0.12 --hold a/right_hand=b/neck --hold a/left_hand=b/right_knee \
   --supports b= --leader b=partner \
   --name "Argentine backbreaker" \
   --description "b lies face up across a's shoulders behind his neck; a's right arm hooks b's neck, his left arm b's right thigh." \

@@ -42,6 +42,7 @@
   --rotate b/left_elbow=-73.8,-54.5,-49.7 \
   --rotate b/left_wrist=0.0,-27.3,-35.7 \
   --option root=off --settle --drag b/right_hand=-0.02,1.28,-0.15 --drag a/left_hand=0.0,1.17,0.52 \
+  --drag b/left_hand=-0.03,1.365,-0.13 \
   --hold a/left_hand=a/right_hand --hold b/right_hand=b/left_hand --settle \
   --supports a=left_ankle,left_toe,right_ankle,right_toe \
   --supports b=left_ankle,left_toe,right_ankle,right_toe \

@@ -38,7 +38,7 @@
   --rotate b/left_shoulder=44.2,-10.7,-56.6 \
   --rotate b/left_elbow=-43.1,-69.5,-32.9 \
   --rotate b/left_wrist=0.0,11.7,6.9 \
-  --option root=off \
+  --option root=off --drag a/left_hand=0.532,1.096,-0.081 \
   --hold a/right_hand=b/right_wrist --hold a/left_hand=b/chest \
   --settle \
   --supports a=left_ankle,left_toe,right_ankle,right_toe \

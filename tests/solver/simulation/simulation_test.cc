@@ -9,6 +9,8 @@
 #include "model/geometry/polyline.h"
 #include "model/geometry/so3.h"
 #include "solver/retarget.h"
+#include "solver/simulation/control.h"
+#include "solver/simulation/swinging_feet.h"
 #include "solver/simulation/tangle_force.h"
 #include "tests/solver/scene_fixture.h"
 
@@ -118,6 +120,60 @@ TEST(Simulation, HoldsKeepToACentimetreAndPlantedFeetStay) {
         EXPECT_LT((foot - stood[f][k]).norm(), 0.01) << "frame " << t;
       }
     }
+  }
+}
+
+// Nothing under their feet: the root hangs by its control alone, and its weight does not pull it
+// off the clip's height.
+TEST(Simulation, RootsKeepTheHeightOfTheirClips) {
+  Scene scene = StandingApart(30);
+  for (int f = 0; f < 2; ++f) {
+    scene.contacts[f].clear();
+    scene.posture.pose[f].root_position.y() += 0.5;
+    for (Pose& pose : scene.source[f].frames) pose.root_position.y() += 0.5;
+  }
+  const auto sag = [&](const SimulationSettings& settings) {
+    const SimulationResult result = Simulate(scene, settings);
+    double largest = 0;
+    for (int f = 0; f < 2; ++f) {
+      for (int t = 0; t < 30; ++t) {
+        largest = std::max(largest, scene.source[f].frames[t].root_position.y() -
+                                        result.motion[f].frames[t].root_position.y());
+      }
+    }
+    return largest;
+  };
+  EXPECT_LT(sag({}), 0.01);
+  SimulationSettings soft;
+  soft.root_height_stiffness = soft.root_stiffness;
+  EXPECT_GT(sag(soft), 0.04) << "the test has something to keep";
+}
+
+// A figure without control sinks, as fast as its roots' damping lets it: its feet stop it on the
+// floor where the clip's stand on it, and go through where the clip's are lifted.
+TEST(Simulation, SwingingFeetDoNotCatchOnTheFloor) {
+  const Scene standing = StandingApart(2);
+  const Body& body = standing.body[0];
+  const int ankle = body.FindNode("right_ankle"), toe = body.FindNode("right_toe");
+  for (const double lift : {0.0, 0.05}) {
+    Scene scene = standing;
+    for (Pose& pose : scene.source[0].frames) pose.root_position.y() += lift;
+    SimulationSettings settings;
+    PhysicsOptions options;
+    const Control control(scene, settings);
+    PhysicsWorld world({control.FigureOf(0), control.FigureOf(1)}, {}, options);
+    for (int f = 0; f < 2; ++f) world.SetPose(f, standing.posture.pose[f]);
+    SwingingFeet(scene).Apply(0, 1, &world);
+    for (int step = 0; step < 100; ++step) {
+      world.BeginStep();
+      world.EndStep();
+    }
+    world.UpdateKinematics();
+    const PosedBody posed = world.Posed(0);
+    const double lowest = std::min(posed.node[ankle].y() - body.nodes[ankle].radius,
+                                   posed.node[toe].y() - body.nodes[toe].radius);
+    const bool through = lowest<-0.015, lifted = lift> 0;
+    EXPECT_EQ(through, lifted) << lowest;
   }
 }
 

@@ -66,6 +66,27 @@ TEST_F(Compare, ShowsRunsSideBySideAndWhatDiffers) {
   EXPECT_TRUE(same["differences"].empty() && same["notes"].empty());
 }
 
+// A weight whose term costs nothing in any run, and one whose term does in one.
+TEST_F(Compare, SaysWhichDifferingWeightsHadNothingToDo) {
+  const auto with = [&](const std::string& folder, double weight, double cost) {
+    Json report = Report(one_);
+    report["configuration"]["weights"]["tangle"] = weight;
+    for (Json& term : report["solve"]["terms"]) {
+      if (term["term"] == "tangle") term["cost"] = term["natural_cost"] = cost;
+    }
+    Rewrite(folder, report);
+  };
+  const std::string note = "weights.tangle had nothing to do";
+  with(two_, 200, 0);
+  with(one_, 20, 0);
+  EXPECT_EQ(RunProgram(scratch_, "compare " + one_ + " " + two_).out.rfind("note: " + note, 0), 0u);
+  with(one_, 20, 0.1 * Report(one_)["solve"]["cost"].get<double>());
+  EXPECT_EQ(RunProgram(scratch_, "compare " + one_ + " " + two_).out.find(note), std::string::npos);
+  // Nor is it said of weights that are the same.
+  with(one_, 200, 0);
+  EXPECT_EQ(RunProgram(scratch_, "compare " + one_ + " " + two_).out.find(note), std::string::npos);
+}
+
 TEST_F(Compare, TheBaselineIsTheFirstRunsAndMayBeMissing) {
   Json report = Report(one_);
   report["metrics"]["baseline"] = nullptr;
