@@ -67,6 +67,7 @@ const std::map<std::string, Names>& KnownFolders() {
         "solver/simulation", "solver/metrics"}},
 
       {"io/text", {}},
+      {"io/data", {}},
       {"io/bvh", {"io/text"}},
       {"io/acclaim", {"io/text"}},
       {"io/gltf", {"io/text", "io/bvh"}},  // one frame time for all formats: io/bvh/bvh.h
@@ -84,6 +85,7 @@ const std::map<std::string, Names>& KnownFolders() {
       {"tools/posing", {"tools/report", "tools/api"}},
       {"tools/studio", {"tools/report", "tools/api", "tools/posing"}},
       {"tools/batch", {"tools/report", "tools/api", "tools/studio"}},
+      {"tools/python", {"tools/report", "tools/api"}},
       {"tools/cli", {"tools/report", "tools/proof", "tools/api", "tools/posing", "tools/studio"}},
       {"tools/cli/batch", {"tools/report", "tools/api", "tools/batch", "tools/cli"}},
       {"tools/cli/proof", {"tools/report", "tools/proof", "tools/api", "tools/cli"}},
@@ -181,6 +183,10 @@ const std::vector<Library>& Libraries() {
       {"stb/", {"io/render"}, {}, 1},
       {"CLI/", {"tools/cli"}, {}, 5},
       {"retarget/retarget.h", {"tools/examples"}, {}, kAnyNumber},  // as users include it
+      {"pybind11/",
+       {"tools/python"},
+       {"tools/python/arrays.h", "tools/python/request.h"},
+       kAnyNumber},
       {"httplib.h", {"tools/studio", "tools/bench"}, {}, 2},
       {"benchmark/", {"tools/bench"}, {}, kAnyNumber},
       {"nlohmann/",

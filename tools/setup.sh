@@ -5,12 +5,13 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config ccache libceres-dev libeigen3-dev libglm-dev
           libtinygltf-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libpng-dev
-          libssl-dev libstb-dev libmujoco-dev libqhull-dev libgl-dev libcpp-httplib-dev)
+          libssl-dev libstb-dev libmujoco-dev libqhull-dev libgl-dev libcpp-httplib-dev
+          python3-dev pybind11-dev python3-numpy)
 # The report page is built with them; another installation of both will do.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)
 if [[ ${1:-} == --tests ]]; then
-  packages+=(libgtest-dev libvalijson-dev clang-format)
+  packages+=(libgtest-dev libvalijson-dev clang-format python3-pytest parallel)
   [[ -x ${RETARGET_CHROMIUM:-/usr/bin/chromium} ]] || packages+=(chromium)
 fi
 

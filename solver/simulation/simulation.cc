@@ -8,6 +8,7 @@
 #include "solver/simulation/control.h"
 #include "solver/simulation/judge.h"
 #include "solver/simulation/physics_world.h"
+#include "solver/simulation/swinging_feet.h"
 #include "solver/simulation/tangle_force.h"
 
 namespace retarget::solver {
@@ -16,8 +17,7 @@ namespace {
 // A root this share of the stature below its target: it stands at a little over half of the
 // stature, so the figure sits, kneels or lies.
 constexpr double kFallen = 0.35;
-constexpr double kTouches = 0.002;  // m: feet of a clip no further from the floor touch it
-constexpr double kRestTime = 0.1;   // s at rest before the clips begin: one slow step is none
+constexpr double kRestTime = 0.1;  // s at rest before the clips begin: one slow step is none
 
 class Simulator {
  public:
@@ -28,18 +28,14 @@ class Simulator {
         steps_per_frame_(static_cast<int>(std::ceil(frame_time_ / settings.time_step - 1e-9))),
         control_(scene, settings),
         world_({control_.FigureOf(0), control_.FigureOf(1)}, EqualityConstraints(), Options()),
-        tangle_force_(scene, settings) {
+        tangle_force_(scene, settings),
+        swinging_feet_(scene) {
     for (int f = 0; f < 2; ++f) {
       result_.motion[f].fps = scene.fps();
       result_.motion[f].frames.assign(static_cast<size_t>(scene.num_frames()),
                                       scene.posture.pose[f]);
     }
     simulated_.assign(static_cast<size_t>(scene.num_frames()), 0);
-    for (int f = 0; f < 2; ++f) {
-      for (const Pose& pose : scene.source[f].frames) {
-        source_[f].push_back(PoseBody(scene.body[f], pose).node);
-      }
-    }
   }
 
   SimulationResult Run() {
@@ -140,24 +136,6 @@ class Simulator {
     }
   }
 
-  // Swinging feet pass through the floor where the clip's do not touch it: a foot that the physics
-  // has a little lower than the clip would trip, which no performer did.
-  void FreeSwingingFeet(int t, int next) {
-    for (int f = 0; f < 2; ++f) {
-      const Body& body = scene_.body[f];
-      for (const char* name : {"left_ankle", "left_toe", "right_ankle", "right_toe"}) {
-        const int node = body.FindNode(name);
-        if (node < 0) continue;
-        const auto touches = [&](int frame) {
-          const std::vector<Vec3>& at = source_[f][frame];
-          const double lowest = std::min(at[node].y(), at[body.nodes[node].parent].y());
-          return lowest < body.nodes[node].radius + kTouches;
-        };
-        world_.SetFloorContact(f, node, touches(t) || touches(next));
-      }
-    }
-  }
-
   ControlTarget TargetAt(int t, int next, double u) const {
     return control_.TargetAt(t, next, u, world_);
   }
@@ -223,7 +201,7 @@ class Simulator {
       world_.UpdateKinematics();
       ReadState();
       PlantFeet(t);
-      FreeSwingingFeet(t, t + direction);
+      swinging_feet_.Apply(t, t + direction, &world_);
       for (int k = 0; k < steps_per_frame_; ++k) {
         if (!Step(TargetAt(t, t + direction, (k + 1.0) / steps_per_frame_))) {
           HoldFrom(t + direction, direction);
@@ -287,8 +265,8 @@ class Simulator {
   Control control_;
   PhysicsWorld world_;
   TangleForce tangle_force_;
+  SwingingFeet swinging_feet_;
   std::array<PosedBody, 2> posed_;
-  std::array<std::vector<std::vector<Vec3>>, 2> source_;  // node places of the clips, per frame
   Stray stray_;
   std::vector<char> simulated_;  // per frame
   SimulationResult result_;

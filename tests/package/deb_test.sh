@@ -18,6 +18,16 @@ for file in usr/bin/retarget usr/share/man/man1/retarget.1 usr/lib/x86_64-linux-
   usr/share/retarget/templates/side_headlock.yaml; do
   [[ -s $root/$file || -s $root/${file/x86_64-linux-gnu\//} ]] || { echo "missing: $file" >&2; exit 1; }
 done
+# The add-on is a folder of its own in its archive.
+[[ -s $root/usr/share/retarget/retarget_blender.zip ]] || { echo "missing: the add-on" >&2; exit 1; }
+# The module, where the build made one.
+module=$root/usr/lib/python3/dist-packages
+if compgen -G "$build/python/retarget/_retarget*.so" >/dev/null; then
+  env -i PATH=/usr/bin:/bin PYTHONPATH="$module" /usr/bin/python3 -c '
+import retarget
+assert abs(retarget.gli([[-1, 0, 0], [1, 0, 0]], [[0, -1, 1], [0, 1, 1]])) > 0.1
+print("python", retarget.__version__, retarget.__file__)' | grep "$module"
+fi
 bash -n "$root/usr/share/bash-completion/completions/retarget"
 hold=$root/usr/share/retarget/holds/bear_hug
 cd "$work"

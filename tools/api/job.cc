@@ -63,6 +63,18 @@ std::string ShowCharacters(const Job& job, const std::array<Clip, 2>& motion,
   return io::FormatCharacterScene(scene, shown, notes);
 }
 
+void CheckAlso(const Request& request) {
+  for (const std::string& kind : request.also) {
+    if (std::find(kAlso.begin(), kAlso.end(), kind) == kAlso.end()) {
+      throw InputError(fmt::format("{} {}: expected some of {}", request.words.also, kind,
+                                   fmt::join(kAlso, ", ")));
+    }
+    if (std::count(request.also.begin(), request.also.end(), kind) > 1) {
+      throw InputError(fmt::format("{} {}: is given twice", request.words.also, kind));
+    }
+  }
+}
+
 std::string SceneBytes(const std::array<Body, 2>& body, const std::array<Clip, 2>& clips) {
   return io::FormatSceneGlb(
       {{"a", &body[0], &clips[0], io::kColourA}, {"b", &body[1], &clips[1], io::kColourB}},
@@ -86,6 +98,7 @@ std::vector<std::string> InputPaths(const Request& request) {
 }
 
 Job LoadJob(const Request& request) {
+  CheckAlso(request);
   Job job;
   job.request = request;
   for (io::ClipOptions& clip : job.request.clip) clip.bytes = clip.skeleton_bytes = "";
@@ -157,6 +170,7 @@ std::vector<std::string> OutputNames(const Job& job) {
   std::vector<std::string> names = {"scene.glb",   "source.glb",  "baseline.glb",
                                     "report.json", "config.yaml", "certificate.json"};
   if (job.request.page) names.push_back("report.html");
+  for (const std::string& kind : job.request.also) names.push_back("scene." + kind);
   for (int f = 0; f < 2; ++f) {
     for (const std::string& name : io::NamesOfClipFile(job.clip[f].file, report::kFigure[f])) {
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);

@@ -22,6 +22,9 @@ struct Job {
 
 Job LoadJob(const Request& request);  // throws InputError
 
+// What Request::also may ask for.
+inline const std::vector<std::string> kAlso = {"npz", "csv"};
+
 // The names of the files that will be made of it (Result::files).
 std::vector<std::string> OutputNames(const Job& job);
 // The files that a request reads, none of which it may overwrite.

@@ -41,6 +41,7 @@ struct RequestWords {
   std::string template_at = "Request::template_at";
   std::string show = "Request::show";
   std::string rest = "Request::rest";
+  std::string also = "Request::also";
 };
 
 struct Request {
@@ -60,6 +61,8 @@ struct Request {
   /// Whether report.html is made (a few MB).
   bool page = true;
   Rest rest = Rest::kKeep;
+  // Files of the scene beside the others: "npz", "csv" (docs/data_out.md).
+  std::vector<std::string> also = {};
   RequestWords words = {};
 };
 
@@ -96,7 +99,8 @@ struct Result {
   /// rate.
   std::array<RigMotion, 2> rig_motion;
   /// The files that the program writes: scene.glb, source.glb, baseline.glb, a.<ext>, b.<ext> with
-  /// what belongs to them, report.json, report.html (Request::page), config.yaml, certificate.json.
+  /// what belongs to them, report.json, report.html (Request::page), config.yaml, certificate.json,
+  /// scene.npz, scene.csv (Request::also).
   std::vector<io::NamedBytes> files;
   /// The bytes of one of them; empty where there is none of this name.
   const std::string& File(const std::string& name) const;

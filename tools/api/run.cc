@@ -6,6 +6,7 @@
 #include "model/rig/t_pose_frame.h"
 #include "model/rig/write_back.h"
 #include "solver/start/clip_fit.h"
+#include "tools/api/data_out.h"
 #include "tools/api/job.h"
 #include "tools/api/run_report.h"
 #include "tools/api/version.h"
@@ -159,6 +160,11 @@ Result RunJob(const Job& job, const Progress& progress) {
                                                                      baseline.bytes(), figures})});
   }
   result.files.push_back({"config.yaml", io::FormatSettings(settings)});
+  for (const std::string& kind : job.request.also) {
+    result.files.push_back({"scene." + kind, kind == "npz"
+                                                 ? FormatSceneNpz(result.run, solved.series())
+                                                 : FormatSceneCsv(result.run, solved.series())});
+  }
   result.files.push_back(
       {proof::kCertificate,
        proof::FormatCertificate(result.proof, subject, solved.bytes(), kGenerator)});

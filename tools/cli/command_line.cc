@@ -93,6 +93,10 @@ void CommandLine::AddCompletion(CLI::App* app) {
 void CommandLine::AddRetarget(CLI::App* app) {
   AddScene(app);
   app->add_flag("!--no-page", retarget.page, "no report.html");
+  app->add_option("--also", retarget.also,
+                  "more files of the scene, with commas between: npz (arrays for numpy), csv")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   CLI::App* simulate = app->add_subcommand(
       "simulate", "the forward simulation alone: what `retarget` is compared with");
   AddScene(simulate);

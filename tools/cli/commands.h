@@ -36,8 +36,9 @@ struct RetargetOptions {
   std::array<io::ClipOptions, 2> clip;
   std::string template_path, config_path, out = "out", frames;
   std::vector<std::string> set;
-  std::string show = "figures";  // of scene.glb: "figures" or "characters"
-  std::string rest = "keep";     // of what is written as BVH: "keep" or "t-pose"
+  std::string show = "figures";   // of scene.glb: "figures" or "characters"
+  std::string rest = "keep";      // of what is written as BVH: "keep" or "t-pose"
+  std::vector<std::string> also;  // "npz", "csv"
   double fps = 30, template_at = 0;
   int threads = -1;                // -1: as configured
   std::string progress = "table";  // on stderr: "table" (on a terminal only), or "json" lines

@@ -76,8 +76,11 @@ Settings SettingsOf(const SettingsOptions& options) {
 
 Request RequestOf(const RetargetOptions& options) {
   Request request;
-  request.words = {
-      .frames = "--frames", .template_at = "--template-at", .show = "--show", .rest = "--rest"};
+  request.words = {.frames = "--frames",
+                   .template_at = "--template-at",
+                   .show = "--show",
+                   .rest = "--rest",
+                   .also = "--also"};
   request.clip = options.clip;
   request.template_path = options.template_path;
   request.settings = SettingsOf({options.config_path, options.set});
@@ -87,6 +90,7 @@ Request RequestOf(const RetargetOptions& options) {
   request.template_at = options.template_at;
   request.show = options.show == "characters" ? Show::kCharacters : Show::kFigures;
   request.page = options.page;
+  request.also = options.also;
   request.rest = options.rest == "t-pose" ? Rest::kTPose : Rest::kKeep;
   return request;
 }

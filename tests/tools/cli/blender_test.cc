@@ -126,5 +126,25 @@ TEST_F(BlenderTest, ReadsARealClipAsWeDo) {
   CompareBvh(SharedPath("data/clips/mixamo_freebvh.bvh"), 0.01);
 }
 
+// The add-on's own script does what an artist does; this says whether what it measured is good.
+TEST(BlenderAddOn, MakesALayerOfTheSolvedMotionAndTouchesNothingElse) {
+  SKIP_WITHOUT_BLENDER();
+  const Scratch scratch;
+  const std::string command =
+      "RETARGET_BINARY=" RETARGET_BINARY " BLENDER_USER_SCRIPTS='" + (scratch / "scripts") +
+      "' BLENDER_USER_CONFIG='" + (scratch / "config") +
+      "' blender --background --factory-startup --python-exit-code 1 --python '" +
+      ProjectPath("tests/blender/addon_test.py") + "' -- '" + ProjectPath("") + "' '" +
+      RETARGET_BLENDER_ZIP "' '" + scratch / "" + "' >'" + (scratch / "log") + "' 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << ReadWholeFile(scratch / "log");
+  const nlohmann::json measured = nlohmann::json::parse(ReadWholeFile(scratch / "result.json"));
+  EXPECT_GE(measured["checked"], 30 * 40);
+  EXPECT_LT(measured["bvh"], kTolerance) << measured;
+  // The rig itself reaches the scene's nodes as well as the report says.
+  EXPECT_LT(measured["glb"].get<double>(), measured["write_back"].get<double>() + kTolerance);
+  EXPECT_GT(measured["moved"], 0.01);
+  EXPECT_TRUE(measured["undo"]);
+}
+
 }  // namespace
 }  // namespace retarget::cli
