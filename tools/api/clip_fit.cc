@@ -15,11 +15,12 @@ using solver::kClearlyBetter;
 using solver::kPostureNoise;
 using solver::PostureDistance;
 
-constexpr double kSearchFps = 10;    // of a whole clip: postures change little in between
-constexpr double kLeastMotion = 1;   // s that must be left of a clip from a start that is proposed
-constexpr double kLying = 60;        // degrees of the trunk from the vertical
-constexpr double kSitting = 0.65;    // height of the root over the lowest foot, in leg lengths
-constexpr double kInTheAir = 0.10;   // m over where the clip's feet rest
+constexpr double kSearchFps = 10;   // of a whole clip: postures change little in between
+constexpr double kLeastMotion = 1;  // s that must be left of a clip from a start that is proposed
+constexpr double kLying = 60;       // degrees of the trunk from the vertical
+constexpr double kSitting = 0.65;   // height of the root over the lowest foot, in leg lengths
+constexpr double kInTheAir = 0.10;  // m over where the clip's feet rest
+constexpr double kNear = 0.10;  // of the stature: as near as a posed figure is to a captured one
 constexpr double kOtherSize = 1.35;  // of the partner's stature, against the template's
 
 enum class Stance { kStands, kSits, kLies };
@@ -71,7 +72,7 @@ std::vector<std::string> Differences(const solver::RetargetInput& input, int f, 
   const Pose& pose = input.clip[f].frames[input.template_frame];
   const Stance is = StanceOf(input.body[f], pose);
   const Stance wanted = StanceOf(input.posture.body[f], input.posture.pose[f]);
-  if (is != wanted) {
+  if (!fits && is != wanted) {
     differs.push_back(fmt::format("{} where figure {} {}", kVerbs[static_cast<int>(is)], who,
                                   kVerbs[static_cast<int>(wanted)]));
   } else if (!fits) {
@@ -174,7 +175,7 @@ JobFit FitOfJob(const solver::RetargetInput& input, const std::array<io::LoadedC
     out.warnings.push_back(figure.sentence);
   }
   const auto [frame, together] = BestTogether(wanted, input.clip);
-  if (ClearlyBetter(together, as_given)) {
+  if (as_given > kNear && ClearlyBetter(together, as_given)) {
     out.warnings.push_back(fmt::format(
         "both clips are nearer to the template at {:.2f} s: {} {:.2f} (nodes {:.0f} % of the "
         "stature off, not {:.0f} %)",

@@ -34,6 +34,9 @@ CLIPS = {
     "cmu_16_15": (3.9, 0), "fair_dab": (11.2, 1.4), "iclone_007_01_walk": (2.6, 0), "lafan_dance1_subject2": (131, 6),
     "mixamo_freebvh": (2.2, 0), "mocapbank": (15.1, 0), "xsens_stand": (11.5, 0),
 }
+# Figures that are carried: no clip of the library lies over a shoulder, so three rows of four have the hold's own.
+CARRIED = {"argentine_backbreaker": 1, "fireman_carry": 1, "octopus_hold": 0, "piggyback": 1}
+OWN = "own"
 LONGEST, SHORTEST = 6.0, 2.0  # s of a row
 WHAT = ["plain", "plain", "sizes", "instants", "instants and sizes", "spin", "spin and sizes"]
 
@@ -50,7 +53,10 @@ def rows():
                 start = [s + chance.uniform(0, max(0.0, min(CLIPS[c][0], 40) - s - SHORTEST)) for c, s in zip(pair, start)]
             stature = [chance.uniform(0.85, 1.15) if "sizes" in what else 1.0 for _ in pair]
             spin = [chance.choice([-1, 1]) * chance.uniform(90, 270) if "spin" in what and f == k % 2 else 0.0 for f in range(2)]
-            length = min([LONGEST] + [CLIPS[c][0] - s for c, s in zip(pair, start)])
+            if hold in CARRIED and len(out) % 4:
+                f = CARRIED[hold]
+                pair[f], start[f], spin[f] = OWN, 0.0, 0.0
+            length = min([LONGEST] + [CLIPS[c][0] - s for c, s in zip(pair, start) if c != OWN])
             out.append({"name": f"{hold}/{k + 1} {what}", "hold": hold, "pair": pair, "start": start, "stature": stature, "spin": spin, "frames": int(30 * length)})
     return out
 
@@ -118,7 +124,8 @@ def run(row, options):
     folder.mkdir(parents=True)
     arguments = [options.retarget, "--template", str(ROOT / "data/holds" / row["hold"] / "template.yaml"), "--frames", f"0:{row['frames']}"]
     for f, k in (("a", 0), ("b", 1)):
-        clip = options.clips / f"{row['pair'][k]}.bvh"
+        own = ROOT / "data/holds" / row["hold"] / f"{f}.bvh"
+        clip = own if row["pair"][k] == OWN else options.clips / f"{row['pair'][k]}.bvh"
         stature, up = told_of(options.retarget, clip)
         if row["spin"][k]:
             spun = folder / f"spun_{f}.bvh"

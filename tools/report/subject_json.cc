@@ -47,20 +47,17 @@ Json NodesJson(const Body& body) {
   return nodes;
 }
 
-// What the rig says of joints beside the body's own ranges of motion.
+// Joints of which the rig says more than the body's own ranges of motion.
 Json LimitsJson(const Body& body) {
-  Json out = Json::object();
+  Json out = Json::array();
   for (const Link& link : body.links) {
     const JointLimit standard = StandardLimit(link.name);
-    Json own = Json::object();
-    if (link.limit.hinge_axis != standard.hinge_axis) {
-      own["hinge_axis"] = VectorJson(link.limit.hinge_axis);
-    }
-    if (link.limit.reach < standard.reach) {
-      own["reach_deg"] = link.limit.reach / kDegree;
-      own["reach_centre"] = VectorJson(link.limit.reach_centre);
-    }
-    if (!own.empty()) out[link.name] = own;
+    const JointLimit& own = link.limit;
+    if (own.hinge_axis == standard.hinge_axis && own.reach >= standard.reach) continue;
+    out.push_back({{"joint", link.name},
+                   {"hinge_axis", VectorJson(own.hinge_axis)},
+                   {"reach_deg", own.reach / kDegree},
+                   {"reach_centre", VectorJson(own.reach_centre)}});
   }
   return out;
 }
@@ -68,14 +65,14 @@ Json LimitsJson(const Body& body) {
 // The limits of a body from a report; those from before they were written say nothing of them.
 void SetLimits(const Json& figure, Body* body) {
   if (!figure.contains("limits")) return;
-  for (Link& link : body->links) {
-    link.limit = StandardLimit(link.name);
-    const auto own = figure.at("limits").find(link.name);
-    if (own == figure.at("limits").end()) continue;
-    if (own->contains("hinge_axis")) link.limit.hinge_axis = VectorFromJson(own->at("hinge_axis"));
-    if (!own->contains("reach_deg")) continue;
-    link.limit.reach = own->at("reach_deg").get<double>() * kDegree;
-    link.limit.reach_centre = VectorFromJson(own->at("reach_centre"));
+  for (Link& link : body->links) link.limit = StandardLimit(link.name);
+  for (const Json& own : figure.at("limits")) {
+    const int link = body->FindLink(own.at("joint"));
+    if (link < 0) throw InputError("there is no joint " + own.at("joint").get<std::string>());
+    JointLimit& limit = body->links[link].limit;
+    limit.hinge_axis = VectorFromJson(own.at("hinge_axis"));
+    limit.reach = own.at("reach_deg").get<double>() * kDegree;
+    limit.reach_centre = VectorFromJson(own.at("reach_centre"));
   }
 }
 

@@ -196,7 +196,7 @@ TEST(Terms, PartsAreOfTheSceneAndAddUpToTheTerm) {
     }
   }
   EXPECT_EQ(kinds[PartKind::kHold], 1);
-  EXPECT_EQ(kinds[PartKind::kTag], 2);
+  EXPECT_EQ(kinds[PartKind::kTag], 2);  // tangle and tangle_aim
   EXPECT_EQ(kinds[PartKind::kContact], 2);
   EXPECT_GT(always_on, 20);
 }
