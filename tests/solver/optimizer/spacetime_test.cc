@@ -53,7 +53,8 @@ TEST(Spacetime, TrackingAloneReturnsTheSource) {
   Settings settings = Tight();
   settings.weights.foot_lock = settings.weights.foot_swing = settings.weights.hold = 0;
   settings.weights.penetration = 0;
-  settings.weights.self_penetration = settings.weights.ground = settings.weights.tangle = 0;
+  settings.weights.self_penetration = settings.weights.ground = 0;
+  settings.weights.tangle = settings.weights.tangle_aim = 0;
   settings.weights.joint_limit = 0;
   const Problem problem(scene, settings);
   Unknowns start = UnknownsFromPoses(scene, scene.source);

@@ -232,6 +232,7 @@ TEST(Simulation, WithoutControlTheFiguresFall) {
   for (auto& contacts : scene.contacts) contacts.clear();
   SimulationSettings settings;
   settings.stiffness = settings.root_stiffness = settings.root_turn_stiffness = 0;
+  settings.root_height_stiffness = 0;
   settings.settle_max_s = 0;
   const SimulationResult result = Simulate(scene, settings);
   EXPECT_EQ(result.status, SimulationStatus::kFell);
