@@ -9,7 +9,6 @@ WORK_DIR/result.json with what was measured.
 import builtins
 import json
 import pathlib
-import shutil
 import sys
 
 import bpy
@@ -202,8 +201,6 @@ def main():
     # Undo takes the layer away and leaves the capture.
     worst["undo"] = undo(settings, a.name, originals[0].name)
     (WORK / "result.json").write_text(json.dumps(worst))
-    for folder in (out.parent, pathlib.Path(settings.report).parent.parent):
-        shutil.rmtree(folder, ignore_errors=True)
     bpy.ops.preferences.addon_disable(module="retarget_addon")
 
 

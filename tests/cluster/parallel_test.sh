@@ -17,7 +17,9 @@ for _ in $(seq 400); do
   [[ $(finished "$out" | wc -l) -ge 2 ]] && break
   sleep 0.05
 done
-kill -KILL -- "-$group"
+# parallel and what it has started, which are groups of their own.
+# shellcheck disable=SC2046
+kill -KILL -- "-$group" $(pgrep -f -- "batch $WORK/m.csv --out $out") 2>/dev/null || true
 wait "$group" 2>/dev/null || true
 finished "$out" >"$WORK/before.txt"
 [[ -s $WORK/before.txt ]] || fail "nothing was finished before the kill"

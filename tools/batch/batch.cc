@@ -14,6 +14,7 @@
 
 #include "io/files.h"
 #include "io/text/read_file.h"
+#include "tools/batch/lock.h"
 
 namespace retarget::batch {
 namespace {
@@ -174,6 +175,7 @@ int64_t FreeMemory() {
 BatchSummary RunBatch(const BatchRequest& request, const std::vector<Option>& options,
                       const BatchEvents& events) {
   CheckFolder(request);
+  const ShardLock lock(PathIn(request.out, ".lock-" + StatusName(request.shard)));
   const std::vector<Job> planned = PlanJobs(request.pairs, request.shard);
   std::map<std::string, Record> records;
   if (request.resume) records = ReadRecords(request.out);
@@ -203,8 +205,8 @@ BatchSummary RunBatch(const BatchRequest& request, const std::vector<Option>& op
   io::WriteFile(PathIn(request.out, "manifest.jsonl"), FormatPairs(request.pairs), true);
   WriteRecords(status, records, ids);
 
-  RunnerOptions runner{request.out,    status,           request.processes,
-                       request.memory, request.pictures, request.force};
+  const RunnerOptions runner{request.out,    status,           ids,          request.processes,
+                             request.memory, request.pictures, request.force};
   BatchSummary summary;
   summary.finished_before = static_cast<int>(planned.size() - jobs.size());
   events.tell(

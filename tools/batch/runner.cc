@@ -59,6 +59,7 @@ class Runner {
     gethostname(host, sizeof host - 1);
     suffix_ = fmt::format("{}{}.{}", kSeparator, host, getpid());
     RemoveLeftovers();
+    studio::LetChildrenEndWithUs();
   }
 
   bool Run(const std::function<bool()>& stop) {
@@ -79,18 +80,18 @@ class Runner {
   }
 
  private:
-  // What processes that were killed have left of these pairs.
+  // What processes that were killed have left of the shard.
   void RemoveLeftovers() {
     std::error_code error;
     fs::create_directories(unfinished_, error);
     for (const auto& entry : fs::directory_iterator(unfinished_, error)) {
       const std::string name = entry.path().filename();
-      const std::string id = name.substr(0, name.rfind(kSeparator));
-      const bool ours = std::any_of(waiting_.begin(), waiting_.end(), [&](const Job& job) {
-        return id == job.pair.id || id == job.pair.id + kOld;
-      });
+      std::string id = name.substr(0, name.rfind(kSeparator));
+      if (id.ends_with(kOld)) id.resize(id.size() - std::string_view(kOld).size());
       std::error_code ignored;
-      if (ours) fs::remove_all(entry.path(), ignored);
+      if (std::find(runner_.ids.begin(), runner_.ids.end(), id) != runner_.ids.end()) {
+        fs::remove_all(entry.path(), ignored);
+      }
     }
   }
 

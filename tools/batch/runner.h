@@ -12,9 +12,10 @@
 namespace retarget::batch {
 
 struct RunnerOptions {
-  std::string out;       // folder of the batch, which exists
-  std::string status;    // path of the status file that is added to
-  int processes = 1;     // at once, fewer where memory does not allow them
+  std::string out;               // folder of the batch, which exists
+  std::string status;            // path of the status file that is added to
+  std::vector<std::string> ids;  // of the whole shard: what an earlier process left of them goes
+  int processes = 1;             // at once, fewer where memory does not allow them
   int64_t memory = 0;    // bytes that all of them may take together; a larger pair runs alone
   bool pictures = true;  // scene.png in the folder of each
   bool force = false;    // folders that no run wrote may be replaced

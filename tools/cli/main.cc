@@ -6,10 +6,12 @@
 
 #include "tools/cli/command_line.h"
 #include "tools/cli/commands.h"
+#include "tools/studio/child_process.h"
 
 int main(int argc, char** argv) {
   using namespace retarget;
   using namespace retarget::cli;
+  studio::EndWithParentIfAsked();
   CLI::App app(
       "Two motions, each captured alone, become one scene of two people tangled with each other.",
       "retarget");

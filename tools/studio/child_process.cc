@@ -2,12 +2,14 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -15,7 +17,8 @@ namespace retarget::studio {
 namespace {
 
 constexpr size_t kLongestLine = 10'000;  // bytes; the rest of a longer one is a line of its own
-constexpr int kNice = 5;                 // a drag on the page goes first
+constexpr const char* kParentVariable = "RETARGET_PARENT_PROCESS";
+constexpr int kNice = 5;  // a drag on the page goes first
 
 // How the child is started: no files of ours but the pipe, no signals blocked, a group of its own,
 // so that Ctrl-C in the terminal is ours to hand on.
@@ -61,6 +64,17 @@ std::vector<char*> Argv(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+void LetChildrenEndWithUs() { setenv(kParentVariable, std::to_string(getpid()).c_str(), 1); }
+
+void EndWithParentIfAsked() {
+  const char* parent = std::getenv(kParentVariable);
+  if (parent == nullptr) return;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const bool is_gone = std::to_string(getppid()) != parent;
+  unsetenv(kParentVariable);
+  if (is_gone) std::_Exit(1);
+}
 
 bool Launch(const std::vector<std::string>& words) {
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);

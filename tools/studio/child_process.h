@@ -31,6 +31,12 @@ class ChildProcess {
   std::string unread_;
 };
 
+// From here on every ChildProcess ends with the thread that has started it, even if that is killed.
+// To be called while there is one thread alone.
+void LetChildrenEndWithUs();
+// In the child: does what its parent has asked for.
+void EndWithParentIfAsked();
+
 // Starts another program and leaves it alone; its output goes nowhere. False where it cannot be
 // started.
 bool Launch(const std::vector<std::string>& words);

@@ -221,6 +221,10 @@ TEST(Batch, CtrlCLeavesAStateToResume) {
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
     ASSERT_LT(waited.count(), 100);
   }
+  // Meanwhile nobody else works there.
+  const Outcome other = RunProgram(scratch, "batch " + manifest + " --resume --out " + out);
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("another process runs these pairs"), std::string::npos) << other.err;
   kill(pid, SIGINT);
   EXPECT_EQ(WaitFor(pid), 130);
   const std::map<std::string, Json> before = Records(out);

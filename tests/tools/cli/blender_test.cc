@@ -131,8 +131,8 @@ TEST(BlenderAddOn, MakesALayerOfTheSolvedMotionAndTouchesNothingElse) {
   SKIP_WITHOUT_BLENDER();
   const Scratch scratch;
   const std::string command =
-      "RETARGET_BINARY=" RETARGET_BINARY " BLENDER_USER_SCRIPTS='" + (scratch / "scripts") +
-      "' BLENDER_USER_CONFIG='" + (scratch / "config") +
+      "TMPDIR='" + (scratch / "") + "' RETARGET_BINARY=" RETARGET_BINARY " BLENDER_USER_SCRIPTS='" +
+      (scratch / "scripts") + "' BLENDER_USER_CONFIG='" + (scratch / "config") +
       "' blender --background --factory-startup --python-exit-code 1 --python '" +
       ProjectPath("tests/blender/addon_test.py") + "' -- '" + ProjectPath("") + "' '" +
       RETARGET_BLENDER_ZIP "' '" + scratch / "" + "' >'" + (scratch / "log") + "' 2>&1";
