@@ -37,7 +37,7 @@ void CheckStages(const std::vector<double>& stages);
 struct Weights {
   double pose_tracking = 1;
   double root_tracking = 6;
-  double smoothness = 30;
+  double smoothness = 10;
   double root_smoothness = 0;
   double foot_lock = 300;
   double foot_swing = 60;

@@ -139,7 +139,7 @@ TEST(SettingsFileTest, RefusesBadTexts) {
       {"weihgts: {tangle: 3}\n", "s.yaml:1: unknown key \"weihgts\", did you mean \"weights\"?"},
       {"colour: 3\n",
        "s.yaml:1: unknown key \"colour\", expected one of weights, joint_weights, "
-       "tangle, hand_contact, requirements, solve, contact"},
+       "tangle, hand_contact, requirements, plausible, solve, contact"},
       {"weights:\n  hold: 1\n  tangle: 3\n  hold: 2\n",
        "s.yaml:4: key \"weights.hold\" is given twice, first in line 2"},
       {"weights: 3\n", "s.yaml:1: weights: expected a map of keys and values, found \"3\""},

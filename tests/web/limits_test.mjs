@@ -146,7 +146,9 @@ test("a bend past half a turn is more bent, not bent backwards", () => {
 // The rotation that a quaternion [x, y, z, w] stands for.
 function matrixOf([x, y, z, w]) {
   const sine = Math.hypot(x, y, z);
-  return sine < 1e-12 ? turn([1, 0, 0], 0) : turn(unit([x, y, z]), (2 * Math.atan2(sine, w)) / kDegree);
+  return sine < 1e-12
+    ? turn([1, 0, 0], 0)
+    : turn(unit([x, y, z]), (2 * Math.atan2(sine, w)) / kDegree);
 }
 
 test("a swing and a twist are those that made the rotation", () => {
@@ -173,7 +175,10 @@ test("a swing and a twist are those that made the rotation", () => {
         readings.map((r) => r.name),
         names,
       );
-      const most = [u < 0 ? -limits.swing[0] : limits.swing[1], v < 0 ? -limits.side[0] : limits.side[1]];
+      const most = [
+        u < 0 ? -limits.swing[0] : limits.swing[1],
+        v < 0 ? -limits.side[0] : limits.side[1],
+      ];
       assertLine(readings[0], away, `${name} swing`);
       near(readings[0].max, 1 / Math.hypot(u / most[0], v / most[1]), `${name} reach`);
       assertLine(readings[1], twist, `${name} twist`);
@@ -207,7 +212,7 @@ test("rotation vectors there and back", () => {
 // The program names the joints that are more than a degree beyond a limit, and by how much.
 test("as far beyond as the program says", async () => {
   const worst = new Map(); // how often each kind of reading was the one that counted
-  for (let round = 0; round < 12; ++round) {
+  for (let round = 0; round < 24; ++round) {
     const turns = new Map();
     const ops = ["a", "b"].flatMap((figure) =>
       body[figure].links.slice(1).map(({ name: joint }) => {

@@ -13,6 +13,20 @@ namespace {
 constexpr double kHovers = 0.02;
 }  // namespace
 
+report::Json ContactsJson(const std::array<Body, 2>& body,
+                          const std::vector<HandContact>& contacts) {
+  report::Json out = report::Json::array();
+  for (const HandContact& c : contacts) {
+    const auto end = [&](int f, int node, double along) {
+      return report::Json{
+          {"figure", report::kFigure[f]}, {"node", body[f].nodes[node].name}, {"along", along}};
+    };
+    out.push_back(
+        {{"from", end(c.figure, c.hand, c.along)}, {"to", end(1 - c.figure, c.to, c.to_along)}});
+  }
+  return out;
+}
+
 report::Json TangleJson(const Body& a, const Body& b, const Tangle& t) {
   return {{"a", {a.nodes[t.a.from].name, a.nodes[t.a.to].name}},
           {"b", {b.nodes[t.b.from].name, b.nodes[t.b.to].name}},

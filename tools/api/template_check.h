@@ -28,5 +28,9 @@ inline constexpr double kBeyondLimitDeg = 1;
 std::vector<std::string> LimitWarnings(const TemplatePosture& posture);
 
 report::Json TangleJson(const Body& a, const Body& b, const Tangle& tangle);
+// Of every hand: {"from": {"figure", "node", "along"}, "to": {...}}, `along` a share of the
+// segment.
+report::Json ContactsJson(const std::array<Body, 2>& body,
+                          const std::vector<HandContact>& contacts);
 
 }  // namespace retarget::api

@@ -56,20 +56,6 @@ struct Found {
   std::vector<HandContact> contacts;
 };
 
-report::Json ContactsJson(const std::array<Body, 2>& body,
-                          const std::vector<HandContact>& contacts) {
-  report::Json out = report::Json::array();
-  for (const HandContact& c : contacts) {
-    const auto end = [&](int f, int node, double along) {
-      return report::Json{
-          {"figure", report::kFigure[f]}, {"node", body[f].nodes[node].name}, {"along", along}};
-    };
-    out.push_back(
-        {{"from", end(c.figure, c.hand, c.along)}, {"to", end(1 - c.figure, c.to, c.to_along)}});
-  }
-  return out;
-}
-
 void PrintContacts(const std::array<Body, 2>& body, const std::vector<HandContact>& contacts) {
   for (const HandContact& c : contacts) {
     const int g = 1 - c.figure;
@@ -124,7 +110,7 @@ int RunTangles(const std::string& path, const SettingsOptions& settings, bool js
       entry["group_size"] = tag.group_size;
       out["tags"].push_back(entry);
     }
-    out["contacts"] = ContactsJson(found.body, found.contacts);
+    out["contacts"] = api::ContactsJson(found.body, found.contacts);
     fmt::print("{}\n", out.dump(1));
     return kDone;
   }
@@ -162,7 +148,7 @@ int RunTemplateCheck(const std::string& path, const SettingsOptions& settings, b
       out["tags"].push_back(api::TangleJson(bodies[0], bodies[1], tag.tangle));
       out["tags"].back()["rho"] = tag.rho;
     }
-    out["contacts"] = ContactsJson(bodies, contacts);
+    out["contacts"] = api::ContactsJson(bodies, contacts);
     fmt::print("{}\n", out.dump(1));
     return met ? kDone : kMissed;
   }

@@ -109,7 +109,8 @@ std::unique_ptr<Result> RunFromPython(const py::object& clip_a, const py::object
   return result;
 }
 
-py::dict TanglesDict(const std::array<Body, 2>& body, const solver::TemplateTangles& tangles) {
+py::dict TanglesDict(const std::array<Body, 2>& body, const solver::TemplateTangles& tangles,
+                     const std::vector<HandContact>& contacts) {
   report::Json out = {{"literal", report::Json::array()}, {"tags", report::Json::array()}};
   for (const Tangle& t : tangles.literal) {
     out["literal"].push_back(api::TangleJson(body[0], body[1], t));
@@ -120,14 +121,17 @@ py::dict TanglesDict(const std::array<Body, 2>& body, const solver::TemplateTang
     entry["group_size"] = tag.group_size;
     out["tags"].push_back(entry);
   }
+  out["contacts"] = api::ContactsJson(body, contacts);
   return JsonObject(out);
 }
 
 py::dict TanglesOf(const py::object& posture, const py::object& other, const py::dict& settings) {
-  const TangleSettings tangle = SettingsOf(settings).tangle;
+  const Settings all = SettingsOf(settings);
+  const TangleSettings& tangle = all.tangle;
   if (other.is_none()) {
     const Template chosen = AsTemplate(posture);
-    return TanglesDict(chosen.posture.body, solver::FindTemplateTangles(chosen.posture, tangle));
+    return TanglesDict(chosen.posture.body, solver::FindTemplateTangles(chosen.posture, tangle),
+                       HandContactsOf(chosen.posture, all.hand_contact.reach_m));
   }
   const Body body = StandardBody(AverageMeasures(1.75));
   const std::vector<Vec3> a = PointsOf(posture.cast<Array>(), "positions of a"),
@@ -143,7 +147,10 @@ py::dict TanglesOf(const py::object& posture, const py::object& other, const py:
   found.literal = FindTangles(body, body, table);
   found.tags = ReduceTangles(body, PosedFromNodes(body, a), body, PosedFromNodes(body, b),
                              found.literal, table, solver::ReductionOf(tangle));
-  return TanglesDict({body, body}, found);
+  const std::array<Body, 2> bodies = {body, body};
+  return TanglesDict(bodies, found,
+                     FindHandContacts(bodies, {PosedFromNodes(body, a), PosedFromNodes(body, b)},
+                                      all.hand_contact.reach_m));
 }
 
 py::object Gli(const Array& p, const Array& q, bool gradient) {

@@ -49,32 +49,35 @@ TEST(TangleAim, IsTwoSidedAndBounded) {
   }
 }
 
-// A solve whose hinge is satisfied all along: with the aim the tag comes closer to the template's
-// value, and nothing goes through anything on the way.
+// With the aim, tags come closer to the template's value than without it, and no limb is on another
+// side of another.
 TEST(TangleAim, DrawsTagsToTheTemplateAndNothingThrough) {
   Scene scene = SmallScene(8, 0.2);
   for (int t = 0; t < 8; ++t) scene.source[1].frames[t].root_position += Vec3(0, 0, 0.12);
   Settings settings;
   settings.weights.tangle = 0;
-  double mean[2] = {0, 0};
+  double off[2] = {0, 0};
+  std::array<std::array<Clip, 2>, 2> clips;
   for (const int aims : {0, 1}) {
     settings.weights.tangle_aim = 10 * aims;
     const Problem problem(scene, settings);
     const SolveResult solved =
         SolveSpacetime(problem, UnknownsFromPoses(scene, scene.source), nullptr);
-    const std::array<Clip, 2> clips = EditedClips(scene, solved.unknowns);
+    clips[aims] = EditedClips(scene, solved.unknowns);
     for (int t = 0; t < 8; ++t) {
       for (size_t k = 0; k < scene.tangles.size(); ++k) {
-        mean[aims] += std::abs(SignedGli(scene, clips, t, k) - scene.tangles[k].aim);
+        off[aims] += std::abs(SignedGli(scene, clips[aims], t, k) - scene.tangles[k].aim);
       }
-      const auto nodes = [&](const std::array<Clip, 2>& of) {
-        return NodePositions{PoseBody(scene.body[0], of[0].frames[t]).node,
-                             PoseBody(scene.body[1], of[1].frames[t]).node};
-      };
-      EXPECT_LT(LargestGliJump(scene.body, nodes(scene.source), nodes(clips), 10).size, 0.5) << t;
     }
   }
-  EXPECT_LT(mean[1], 0.7 * mean[0]);
+  EXPECT_LT(off[1], 0.7 * off[0]);
+  for (int t = 0; t < 8; ++t) {
+    const auto nodes = [&](const std::array<Clip, 2>& of) {
+      return NodePositions{PoseBody(scene.body[0], of[0].frames[t]).node,
+                           PoseBody(scene.body[1], of[1].frames[t]).node};
+    };
+    EXPECT_LT(LargestGliJump(scene.body, nodes(clips[0]), nodes(clips[1]), 10).size, 0.5) << t;
+  }
 }
 
 TEST(HandContactTerm, PullsAHandOntoTheSurfaceAndLetsItSlide) {

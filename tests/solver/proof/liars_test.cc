@@ -109,13 +109,13 @@ Found JudgeDips(unsigned seed, RequirementKind kind, const Value& value,
     s.limits = Wide();
     s.subject.holds = {Hold{{0, 2, make.Within(0.05)}, {1, 2, make.Within(0.05)}, false, {}}};
     const PostureSample start = PlacesAt(s, 0, 0);
-    s.subject.tangles[0].sign = WorstAt(s, start, start).gli < 0 ? -1 : 1;
+    s.subject.tangles[0].sign = WorstBetween(s, start, start).gli < 0 ? -1 : 1;
     // A rough look first.
     double peak = -1e9, elsewhere = -1e9;
     int at = 0;
     for (int k = 0; k <= 3 * 24; ++k) {
-      const double v =
-          value(WorstAt(s, PlacesAt(s, std::min(k / 24, 2), k < 72 ? k % 24 / 24.0 : 1), start));
+      const double v = value(
+          WorstBetween(s, PlacesAt(s, std::min(k / 24, 2), k < 72 ? k % 24 / 24.0 : 1), start));
       if (v > peak) {
         peak = v;
         at = k;
@@ -124,7 +124,8 @@ Found JudgeDips(unsigned seed, RequirementKind kind, const Value& value,
     if (at < 24 + 2 || at > 48 - 2) continue;
     std::vector<double> series;
     for (int k = 0; k <= kFold; ++k) {
-      series.push_back(value(WorstAt(s, PlacesAt(s, 1, static_cast<double>(k) / kFold), start)));
+      series.push_back(
+          value(WorstBetween(s, PlacesAt(s, 1, static_cast<double>(k) / kFold), start)));
     }
     const auto top = std::max_element(series.begin(), series.end()) - series.begin();
     if (top < 2 * kWindow || top > kFold - 2 * kWindow) continue;
@@ -139,7 +140,7 @@ Found JudgeDips(unsigned seed, RequirementKind kind, const Value& value,
       const MatX gli = PairGlis(s, now);
       if (k > 0) jump = std::max(jump, (gli - before).cwiseAbs().maxCoeff());
       before = gli;
-      if (k < 256 || k > 512) elsewhere = std::max(elsewhere, value(WorstAt(s, now, start)));
+      if (k < 256 || k > 512) elsewhere = std::max(elsewhere, value(WorstBetween(s, now, start)));
     }
     if (jump > 0.5 || elsewhere > limit - 1e-6) continue;
     set_limit(limit, &s.limits);

@@ -168,7 +168,8 @@ inline Vec3 HeldPlace(const PostureSample& now, const HoldPoint& p) {
 }
 
 // `start`: the posture in which contacts begin.
-inline Worst WorstAt(const RandomScene& s, const PostureSample& now, const PostureSample& start) {
+inline Worst WorstBetween(const RandomScene& s, const PostureSample& now,
+                          const PostureSample& start) {
   Worst w;
   const std::array<Body, 2>& body = s.subject.body;
   for (const TangleTarget& held : s.subject.tangles) {

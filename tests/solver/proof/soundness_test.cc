@@ -24,8 +24,8 @@ RandomScene SceneWithLimits(SceneMaker* make) {
   s.subject.holds.push_back(hold);
   s.subject.contacts[0] = {{4, 0, 2}};
   const PostureSample start = PlacesAt(s, 0, 0);
-  s.subject.tangles[0].sign = WorstAt(s, start, start).gli < 0 ? -1 : 1;
-  const Worst w = WorstAt(s, start, start);
+  s.subject.tangles[0].sign = WorstBetween(s, start, start).gli < 0 ? -1 : 1;
+  const Worst w = WorstBetween(s, start, start);
   s.limits.gli = w.gli - make->Uniform(0.005, 0.15);
   s.limits.penetration_m = std::max(0.0, w.depth + make->Uniform(-0.01, 0.02));
   s.limits.hold_m = w.hold + make->Uniform(0, 0.1);
@@ -49,7 +49,7 @@ void CheckIntervals(const RandomScene& s, const Proof& proof, Counts* counts) {
     MatX before;
     for (int k = 0; k <= kFold; ++k) {
       const PostureSample now = PlacesAt(s, key, static_cast<double>(k) / kFold);
-      worst.Take(WorstAt(s, now, start));
+      worst.Take(WorstBetween(s, now, start));
       const MatX gli = PairGlis(s, now);
       if (k > 0) jump = std::max(jump, (gli - before).cwiseAbs().maxCoeff());
       before = gli;

@@ -4,7 +4,15 @@
 import { MathUtils, Quaternion, Vector3 } from "three";
 import { okabeIto } from "../../shared/colours";
 import { themeColour } from "../../shared/theme";
-import { coneOf, hingeOf, reachOf, readLimits, rotationOf, type Cone, type Hinge } from "../state/limits";
+import {
+  coneOf,
+  hingeOf,
+  reachOf,
+  readLimits,
+  rotationOf,
+  type Cone,
+  type Hinge,
+} from "../state/limits";
 import type { Store } from "../state/store";
 import type { View } from "./view";
 

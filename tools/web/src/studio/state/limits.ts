@@ -121,7 +121,10 @@ export function readLimits(
   } else if (cone) {
     // A wrist's: the forearm as the hand sees it, mirrored about the bone.
     const seen = axis.clone().applyQuaternion(rotation.clone().conjugate());
-    const own = axis.clone().multiplyScalar(2 * seen.dot(axis)).sub(seen);
+    const own = axis
+      .clone()
+      .multiplyScalar(2 * seen.dot(axis))
+      .sub(seen);
     const { value, most } = swingOf(cone, limits.twist_with_parent ? own : direction);
     read("swing", value, 0, most);
   }
@@ -130,7 +133,8 @@ export function readLimits(
     rotation.clone().multiply(back.clone().conjugate()),
     axis.clone().applyQuaternion(back),
   );
-  if (limits.twist && limits.twist[1] - limits.twist[0] < 359) read("twist", twist, ...limits.twist);
+  if (limits.twist && limits.twist[1] - limits.twist[0] < 359)
+    read("twist", twist, ...limits.twist);
   if (limits.twist_with_parent && parent) {
     const before = twistOf(rotationOf(parent.rotation_vector), vector(parent.axis));
     read("twist with forearm", twist + before, ...limits.twist_with_parent);
