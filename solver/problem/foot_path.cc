@@ -8,6 +8,8 @@ namespace {
 
 // How high a foot is lifted that goes to another place than it did (m).
 constexpr double kStepLift = 0.12;
+// The same while no other foot of the figure stands: who lifts both feet at once hangs in the air.
+constexpr double kHopLift = 0.04;
 constexpr double kSettle = 0.3;  // s, in which the captured speed at a footprint's edge fades
 
 // From rest to rest with least jerk; tau in [0, 1].
@@ -196,20 +198,33 @@ class Planner {
     point.way_to_next = OverFloor(s - reached.place + off);
     point.height = s.y() + off.y();
     point.stride = OverFloor(reached.place - left.place);
-    point.lift = std::pow(4 * tau * (1 - tau), 3) * MostLift(n, left, reached);
+    point.lift = std::pow(4 * tau * (1 - tau), 3) * MostLift(n, left, reached, lifted, landed);
     Keep(from, point);
   }
 
   double Longest() const { return kLongestStep * scene_.fps(); }
 
+  // Whether another foot than node n's stands all the while between two frames.
+  bool AnotherStands(int n, int first, int last) const {
+    for (int t = first + 1; t < last; ++t) {
+      const bool stands = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& c) {
+        return c.first <= t && t <= c.last &&
+               foot_of_[static_cast<size_t>(c.node)] != foot_of_[static_cast<size_t>(n)];
+      });
+      if (!stands) return false;
+    }
+    return true;
+  }
+
   // Less for a foot that went high anyway.
-  double MostLift(int n, const Edge& left, const Edge& reached) const {
+  double MostLift(int n, const Edge& left, const Edge& reached, int lifted, int landed) const {
     const double floor = std::min(Place(left.frame, n).y(), Place(reached.frame, n).y());
     double highest = 0;
     for (int t = left.frame; t <= reached.frame; ++t) {
       highest = std::max(highest, Place(t, n).y() - floor);
     }
-    return std::max(0.0, kStepLift - highest);
+    const double most = AnotherStands(n, lifted, landed) ? kStepLift : kHopLift;
+    return std::max(0.0, most - highest);
   }
 
   void Keep(int k, const FootPathPoint& point) {
