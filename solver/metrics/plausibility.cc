@@ -105,7 +105,7 @@ Plausibility MeasurePlausibility(const MetricsContext& subject, int figure,
   const Body& body = subject.body[figure];
   const std::vector<double> radius = NodeRadii(body);
   const std::vector<int> nodes = UntaggedNodes(subject, figure);
-  const int neck = body.FindNode("neck");
+  const int neck = body.FindNode("neck");  // -1: the figure has no trunk to judge
   const size_t frames = std::min(series.node.size(), source.size());
   for (size_t k = 0; k < frames; ++k) {
     const int t = static_cast<int>(k);
@@ -115,8 +115,11 @@ Plausibility MeasurePlausibility(const MetricsContext& subject, int figure,
     const BeyondLimit& beyond = series.beyond_limit[figure][k];
     Include(beyond.deg, t, beyond.node, &out.joint_limit_deg);
     if (subject.carried[figure]) continue;
-    const Vec3 up = yaw * (q[neck] - q[0]), now = p[neck] - p[0];
-    Include(std::atan2(up.cross(now).norm(), up.dot(now)) / kDegree, t, neck, &out.trunk_tilt_deg);
+    if (neck >= 0) {
+      const Vec3 up = yaw * (q[neck] - q[0]), now = p[neck] - p[0];
+      const double tilt = std::atan2(up.cross(now).norm(), up.dot(now)) / kDegree;
+      Include(tilt, t, neck, &out.trunk_tilt_deg);
+    }
     const Lowest lowest = LowestPoint(p, radius);
     const double before = std::max(0.0, LowestPoint(q, radius).height);
     Include(std::max(0.0, lowest.height - before), t, lowest.node, &out.floating_m);

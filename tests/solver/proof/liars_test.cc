@@ -19,6 +19,7 @@ Requirements Wide() {
   r.gli = -10;
   r.penetration_m = r.hold_m = r.floor_m = r.foot_drift_m = 10;
   r.penetration_1cm_percent = 100;
+  r.plausible = {10, 360, 10, 360, 1e9};
   return r;
 }
 
