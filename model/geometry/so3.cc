@@ -72,4 +72,14 @@ double YawOf(const Quat& q) { return std::remainder(2.0 * std::atan2(q.y(), q.w(
 
 Quat YawRotation(double yaw) { return Quat(std::cos(0.5 * yaw), 0, std::sin(0.5 * yaw), 0); }
 
+double BestYaw(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  double c = 0, s = 0;
+  for (size_t n = 1; n < from.size(); ++n) {
+    const Vec3 u = from[n] - from[0], v = to[n] - to[0];
+    c += u.x() * v.x() + u.z() * v.z();
+    s += u.z() * v.x() - u.x() * v.z();
+  }
+  return std::atan2(s, c);
+}
+
 }  // namespace retarget

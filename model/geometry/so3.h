@@ -3,6 +3,8 @@
 // rotated frame. (Sola, Deray, Atchuthan, "A micro Lie theory", 2018, Eq. 132-145.)
 #pragma once
 
+#include <vector>
+
 #include "model/geometry/types.h"
 
 namespace retarget {
@@ -42,5 +44,8 @@ Quat TwistAbout(const Quat& q, const Vec3& axis);
 // The turn about the vertical (rad) that best agrees with `q`.
 double YawOf(const Quat& q);
 Quat YawRotation(double yaw);
+// The turn about the vertical (rad) under which points `from` are nearest to points `to` in the
+// least squares sense, each seen from its first.
+double BestYaw(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
 
 }  // namespace retarget

@@ -141,7 +141,7 @@ class Measurement {
     const size_t frames = std::min(frames_.size(), source_frames_.size());
     for (size_t t = 0; t < frames; ++t) {
       const std::vector<Vec3>&p = frames_[t][f], &q = source_frames_[t][f];
-      const Quat yaw = BestYaw(p, q);
+      const Quat yaw = YawRotation(BestYaw(q, p));
       for (const int n : untagged) {
         sum += ((p[n] - p[0]) - yaw * (q[n] - q[0])).norm();
         ++count;

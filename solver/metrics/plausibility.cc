@@ -76,16 +76,6 @@ std::vector<int> UntaggedNodes(const MetricsContext& subject, int figure) {
   return nodes;
 }
 
-Quat BestYaw(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
-  double c = 0, s = 0;
-  for (size_t n = 1; n < p.size(); ++n) {
-    const Vec3 u = q[n] - q[0], v = p[n] - p[0];
-    c += u.x() * v.x() + u.z() * v.z();
-    s += u.z() * v.x() - u.x() * v.z();
-  }
-  return YawRotation(std::atan2(s, c));
-}
-
 double MeanJerk(const std::vector<NodePositions>& frames, int figure, double fps) {
   double sum = 0;
   int count = 0;
@@ -110,7 +100,7 @@ Plausibility MeasurePlausibility(const MetricsContext& subject, int figure,
   for (size_t k = 0; k < frames; ++k) {
     const int t = static_cast<int>(k);
     const std::vector<Vec3>&p = series.node[k][figure], &q = source[k][figure];
-    const Quat yaw = BestYaw(p, q);
+    const Quat yaw = YawRotation(BestYaw(q, p));
     IncludePoseError(nodes, p, q, yaw, t, &out.pose_error_m);
     const BeyondLimit& beyond = series.beyond_limit[figure][k];
     Include(beyond.deg, t, beyond.node, &out.joint_limit_deg);

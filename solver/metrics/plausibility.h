@@ -31,9 +31,6 @@ inline constexpr double kStillJerk = 20;
 // The nodes over which pose errors are averaged: those of no tagged path, or all but the root where
 // every one is on such a path.
 std::vector<int> UntaggedNodes(const MetricsContext& subject, int figure);
-// Takes out place and heading of `q` from `p`: the yaw about the root (node 0) under which q's
-// nodes are nearest to p's.
-Quat BestYaw(const std::vector<Vec3>& p, const std::vector<Vec3>& q);
 // Mean over nodes and frames of the norm of the third difference (m/s^3); NaN under four frames.
 double MeanJerk(const std::vector<NodePositions>& frames, int figure, double fps);
 

@@ -45,6 +45,12 @@ void Rows::AddNode(int row, int figure, int node, const Vec3& gradient) {
            gradient);
 }
 
+void Rows::AddSegmentPoint(int row, int figure, int node, double share, const Vec3& gradient) {
+  const int inner = frame_->body(figure).nodes[node].parent;
+  if (share < 1) AddNode(row, figure, inner, (1 - share) * gradient);
+  if (share > 0) AddNode(row, figure, node, share * gradient);
+}
+
 void Rows::AddTurn(int row, int figure, int link, const Vec3& gradient) {
   if (!derivatives_) return;
   const Body& body = frame_->body(figure);

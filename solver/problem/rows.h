@@ -37,6 +37,8 @@ class Rows {
   void AddPoint(int row, int figure, int link, const Vec3& point, const Vec3& gradient);
   // The same for a node.
   void AddNode(int row, int figure, int node, const Vec3& gradient);
+  // The same for the point at a share of the segment that ends at a node: it moves with both ends.
+  void AddSegmentPoint(int row, int figure, int node, double share, const Vec3& gradient);
   // d r += gradient . d omega, for a turn d omega (rad, world axes) of `link` with all it hangs on.
   void AddTurn(int row, int figure, int link, const Vec3& gradient);
   // d r += gradient . d omega, for a turn of the joint alone, in the link's own axes

@@ -21,16 +21,6 @@ std::vector<Vec3> NodesFromRoot(const Body& body, const Pose& pose) {
   return nodes;
 }
 
-// The turn about the vertical that brings `from` nearest to `to` (rad).
-double BestYaw(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  double s = 0, c = 0;
-  for (size_t n = 0; n < from.size(); ++n) {
-    c += from[n].x() * to[n].x() + from[n].z() * to[n].z();
-    s += from[n].z() * to[n].x() - from[n].x() * to[n].z();
-  }
-  return std::atan2(s, c);
-}
-
 }  // namespace
 
 double PostureDistance::value() const { return Rms(whole, involved); }

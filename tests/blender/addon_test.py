@@ -23,6 +23,8 @@ builtins.open = lambda file, mode="r", *rest, **named: _open(
 )
 
 SOURCE, ADDON, WORK = map(pathlib.Path, sys.argv[sys.argv.index("--") + 1 :])
+sys.path.insert(0, str(SOURCE / "tests"))
+from glb_file import Glb  # noqa: E402
 HOLD = SOURCE / "data" / "holds" / "bear_hug"
 FRAMES = 40
 FIRST = 11  # of the scene
@@ -59,16 +61,8 @@ def heads(thing):
 
 def glb_positions(path):
     """{node: [position per key]} by the rules of glTF, in Blender's axes."""
-    data = path.read_bytes()
-    length = int.from_bytes(data[12:16], "little")
-    gltf, blob = json.loads(data[20 : 20 + length]), data[28 + length :]
-
-    def accessor(index):
-        info = gltf["accessors"][index]
-        view = gltf["bufferViews"][info["bufferView"]]
-        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[info["type"]]
-        start = view.get("byteOffset", 0) + info.get("byteOffset", 0)
-        return numpy.frombuffer(blob, numpy.float32, info["count"] * width, start).reshape(-1, width)
+    file = Glb(path.read_bytes())
+    gltf, accessor = file.json, file.accessor
 
     tracks = {}
     for channel in gltf["animations"][0]["channels"]:

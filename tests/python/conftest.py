@@ -3,10 +3,12 @@
 import os
 import pathlib
 import subprocess
+import sys
 
 import pytest
 
 SOURCE = pathlib.Path(os.environ["RETARGET_SOURCE_DIR"])
+sys.path.insert(0, str(SOURCE / "tests"))
 HOLD = SOURCE / "data" / "holds" / "bear_hug"
 
 

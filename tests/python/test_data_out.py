@@ -2,7 +2,6 @@
 
 import csv
 import io
-import json
 import zipfile
 
 import numpy as np
@@ -10,6 +9,7 @@ import pytest
 
 import retarget
 
+from glb_file import Glb
 from test_clips import forward
 
 
@@ -30,15 +30,8 @@ def scene(result):
 
 def scene_positions(glb):
     """World positions of a scene.glb's nodes at its keys, by the rules of glTF: {name: [T, 3]}."""
-    length = int.from_bytes(glb[12:16], "little")
-    gltf, blob = json.loads(glb[20 : 20 + length]), glb[28 + length :]
-
-    def accessor(index):
-        info = gltf["accessors"][index]
-        view = gltf["bufferViews"][info["bufferView"]]
-        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[info["type"]]
-        start = view.get("byteOffset", 0) + info.get("byteOffset", 0)
-        return np.frombuffer(blob, np.float32, info["count"] * width, start).reshape(-1, width)
+    file = Glb(glb)
+    gltf, accessor = file.json, file.accessor
 
     nodes, animation = gltf["nodes"], gltf["animations"][0]
     frames = len(accessor(animation["samplers"][0]["input"]))

@@ -11,6 +11,8 @@ import pytest
 
 import retarget
 
+from glb_file import Glb
+
 SETTINGS = {"solve.threads": 1, "weights": {"tangle": 30}}
 
 
@@ -45,16 +47,8 @@ def test_bytes_and_paths_and_objects_are_one(hold, tmp_path):
 
 def test_arrays_are_views_of_the_scene(hold):
     result = run(hold)
-    glb = result.files["scene.glb"]
-    length = int.from_bytes(glb[12:16], "little")
-    scene, blob = json.loads(glb[20 : 20 + length]), glb[28 + length :]
-
-    def accessor(index):
-        info = scene["accessors"][index]
-        view = scene["bufferViews"][info["bufferView"]]
-        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[info["type"]]
-        start = view.get("byteOffset", 0) + info.get("byteOffset", 0)
-        return np.frombuffer(blob, np.float32, info["count"] * width, start).reshape(-1, width)
+    file = Glb(result.files["scene.glb"])
+    scene, accessor = file.json, file.accessor
 
     checked = 0
     for figure in "ab":

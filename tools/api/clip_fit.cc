@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/body/contact.h"
+#include "model/body/mirror.h"
 #include "model/geometry/so3.h"
 
 namespace retarget::api {
@@ -26,7 +27,7 @@ constexpr double kOtherSize = 1.35;  // of the partner's stature, against the te
 enum class Stance { kStands, kSits, kLies };
 constexpr const char* kVerbs[] = {"stands", "sits or crouches", "lies"};
 
-double LowestFoot(const Body& body, const PosedBody& posed) {
+double LowestNode(const Body& body, const PosedBody& posed) {
   double lowest = posed.node[0].y();
   for (int n = 0; n < body.num_nodes(); ++n) lowest = std::min(lowest, posed.node[n].y());
   return lowest;
@@ -39,24 +40,13 @@ Stance StanceOf(const Body& body, const Pose& pose) {
   if (tilt > kLying) return Stance::kLies;
   const double leg = body.SegmentLength(body.FindNode("left_knee")) +
                      body.SegmentLength(body.FindNode("left_ankle"));
-  const double height = posed.node[0].y() - LowestFoot(body, posed);
+  const double height = posed.node[0].y() - LowestNode(body, posed);
   return height < kSitting * leg ? Stance::kSits : Stance::kStands;
 }
 
-// As a mirror shows the pose: every joint turns as its counterpart.
-Pose MirroredPose(const Body& body, const Pose& pose) {
-  Pose out = pose;
-  for (int l = 0; l < body.num_links(); ++l) {
-    std::string name = body.links[l].name;
-    if (name.starts_with("left_")) {
-      name = "right_" + name.substr(5);
-    } else if (name.starts_with("right_")) {
-      name = "left_" + name.substr(6);
-    }
-    const Quat& q = pose.rotation[std::max(0, body.FindLink(name))];
-    out.rotation[l] = Quat(q.w(), q.x(), -q.y(), -q.z());
-  }
-  return out;
+Pose MirroredPose(const Body& body, Pose pose) {
+  pose.rotation = ReflectedRotations(body, pose);
+  return pose;
 }
 
 bool ClearlyBetter(double other, double now) {
@@ -89,7 +79,7 @@ std::vector<std::string> Differences(const solver::RetargetInput& input, int f, 
   if (input.posture.supports[f].empty()) return differs;
   std::vector<double> heights;
   for (const Pose& p : input.clip[f].frames) {
-    heights.push_back(LowestFoot(input.body[f], PoseBody(input.body[f], p)));
+    heights.push_back(LowestNode(input.body[f], PoseBody(input.body[f], p)));
   }
   const double now = heights[input.template_frame];
   std::nth_element(heights.begin(), heights.begin() + static_cast<long>(heights.size() / 20),

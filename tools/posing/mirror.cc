@@ -4,14 +4,12 @@
 #include <string>
 #include <utility>
 
+#include "model/body/mirror.h"
+
 namespace retarget::posing {
 namespace {
 
-std::string OtherSide(const std::string& name) {
-  if (name.starts_with("left_")) return "right_" + name.substr(5);
-  if (name.starts_with("right_")) return "left_" + name.substr(6);
-  return name;
-}
+using retarget::Reflected;  // points and rotations; below: bodies and paths
 
 int OtherNode(const Body& body, int node) {
   return body.FindNode(OtherSide(body.nodes[node].name));
@@ -19,10 +17,6 @@ int OtherNode(const Body& body, int node) {
 int OtherLink(const Body& body, int link) {
   return body.FindLink(OtherSide(body.links[link].name));
 }
-
-// Reflection through x = 0; a rotation R becomes D R D, D = diag(-1, 1, 1).
-Vec3 Reflected(const Vec3& v) { return Vec3(-v.x(), v.y(), v.z()); }
-Quat Reflected(const Quat& q) { return Quat(q.w(), q.x(), -q.y(), -q.z()); }
 
 // Joint limits stay with their side.
 Body Reflected(const Body& body) {
@@ -43,10 +37,8 @@ Body Reflected(const Body& body) {
 
 // Joints alone; the root stays.
 std::vector<Quat> ReflectedJoints(const Body& body, const Pose& pose) {
-  std::vector<Quat> rotation = pose.rotation;
-  for (int l = 1; l < body.num_links(); ++l) {
-    rotation[l] = Reflected(pose.rotation[OtherLink(body, l)]);
-  }
+  std::vector<Quat> rotation = ReflectedRotations(body, pose);
+  rotation[0] = pose.rotation[0];
   return rotation;
 }
 

@@ -11,29 +11,19 @@ struct AxisPoint {
   double along;
 };
 
-int InnerNode(const Frame& frame, const AxisPoint& at) {
-  return frame.body(at.figure).nodes[at.segment].parent;
-}
-
 Vec3 PlaceOf(const Frame& frame, const AxisPoint& at) {
   const std::vector<Vec3>& node = frame.posed[at.figure].node;
-  return (1 - at.along) * node[InnerNode(frame, at)] + at.along * node[at.segment];
-}
-
-// d r += gradient . d point
-void AddAxisPoint(const Frame& frame, const AxisPoint& at, int row, const Vec3& gradient,
-                  Rows* rows) {
-  rows->AddNode(row, at.figure, InnerNode(frame, at), (1 - at.along) * gradient);
-  rows->AddNode(row, at.figure, at.segment, at.along * gradient);
+  const int inner = frame.body(at.figure).nodes[at.segment].parent;
+  return (1 - at.along) * node[inner] + at.along * node[at.segment];
 }
 
 // A row of what a distance has over `allowed`; `normal` points from q to p.
-void AddDistanceRow(const Frame& frame, double distance, double allowed, const Vec3& normal,
-                    const AxisPoint& p, const AxisPoint& q, Rows* rows) {
+void AddDistanceRow(double distance, double allowed, const Vec3& normal, const AxisPoint& p,
+                    const AxisPoint& q, Rows* rows) {
   if (distance <= allowed) return;
   const int row = rows->Add(distance - allowed);
-  AddAxisPoint(frame, p, row, normal, rows);
-  AddAxisPoint(frame, q, row, -normal, rows);
+  rows->AddSegmentPoint(row, p.figure, p.segment, p.along, normal);
+  rows->AddSegmentPoint(row, q.figure, q.segment, q.along, -normal);
 }
 
 }  // namespace
@@ -46,12 +36,12 @@ void HandContactTerm::EvaluatePart(const Frame& frame, int, Rows* rows) const {
     const double touching = hand.radius + to.radius;
     const ClosestPoints closest =
         ClosestPointsOfSegments(p[hand.parent], p[contact.hand], q[to.parent], q[contact.to]);
-    AddDistanceRow(frame, closest.distance, touching, closest.normal, {f, contact.hand, closest.s},
+    AddDistanceRow(closest.distance, touching, closest.normal, {f, contact.hand, closest.s},
                    {g, contact.to, closest.t}, rows);
     const AxisPoint from{f, contact.hand, contact.along}, onto{g, contact.to, contact.to_along};
     const Vec3 apart = PlaceOf(frame, from) - PlaceOf(frame, onto);
     const double distance = apart.norm();
-    AddDistanceRow(frame, distance, touching + slide_, apart / distance, from, onto, rows);
+    AddDistanceRow(distance, touching + slide_, apart / distance, from, onto, rows);
   }
 }
 

@@ -33,19 +33,11 @@ bool MayTouch(const Capsule& c, const Capsule& d) {
   return (c.middle - d.middle).squaredNorm() < reach * reach;
 }
 
-// The point at share s of a segment moves with both its ends.
-void AddAxisPoint(int row, const Frame& frame, int figure, int node, double s, const Vec3& gradient,
-                  Rows* rows) {
-  const int parent = frame.body(figure).nodes[node].parent;
-  if (s < 1) rows->AddNode(row, figure, parent, (1 - s) * gradient);
-  if (s > 0) rows->AddNode(row, figure, node, s * gradient);
-}
-
-void AddDepthRow(const Frame& frame, double depth, const ClosestPoints& closest, int figure_1,
-                 int node_1, int figure_2, int node_2, Rows* rows) {
+void AddDepthRow(double depth, const ClosestPoints& closest, int figure_1, int node_1, int figure_2,
+                 int node_2, Rows* rows) {
   const int row = rows->Add(depth);
-  AddAxisPoint(row, frame, figure_1, node_1, closest.s, -closest.normal, rows);
-  AddAxisPoint(row, frame, figure_2, node_2, closest.t, closest.normal, rows);
+  rows->AddSegmentPoint(row, figure_1, node_1, closest.s, -closest.normal);
+  rows->AddSegmentPoint(row, figure_2, node_2, closest.t, closest.normal);
 }
 
 }  // namespace
@@ -59,7 +51,7 @@ void Penetration::EvaluatePart(const Frame& frame, int, Rows* rows) const {
       const ClosestPoints closest = ClosestPointsOfSegments(a[i].a, a[i].b, b[j].a, b[j].b);
       const double depth = CapsuleDepth(closest, a[i].radius, b[j].radius);
       if (depth <= 0) continue;
-      AddDepthRow(frame, depth, closest, 0, static_cast<int>(i), 1, static_cast<int>(j), rows);
+      AddDepthRow(depth, closest, 0, static_cast<int>(i), 1, static_cast<int>(j), rows);
     }
   }
 }
@@ -94,7 +86,7 @@ void SelfPenetration::EvaluatePart(const Frame& frame, int, Rows* rows) const {
         if (allowance.figure == f && allowance.pair == static_cast<int>(k))
           depth -= allowance.depth;
       }
-      if (depth > 0) AddDepthRow(frame, depth, closest, f, i, f, j, rows);
+      if (depth > 0) AddDepthRow(depth, closest, f, i, f, j, rows);
     }
   }
 }

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "solver/problem/term.h"
+#include "solver/problem/terms/tag_gli.h"
 
 namespace retarget::solver {
 
@@ -22,8 +22,8 @@ class TangleTerm : public Term {
 
  private:
   struct Item {
-    std::vector<int> nodes_a, nodes_b;
-    double sign, target;
+    TagPaths paths;
+    double target;
   };
   std::vector<Item> items_;
 };

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "solver/problem/term.h"
+#include "solver/problem/terms/tag_gli.h"
 
 namespace retarget::solver {
 
@@ -25,8 +25,8 @@ class TangleAim : public Term {
 
  private:
   struct Item {
-    std::vector<int> nodes_a, nodes_b;
-    double sign, aim;
+    TagPaths paths;
+    double aim;
   };
   std::vector<Item> items_;
 };
